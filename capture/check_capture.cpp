@@ -39,16 +39,6 @@ Result<Done, InputError> check_rotation(const RotationRows& r, const std::string
   return Done{};
 }
 
-Result<Done, InputError> check_camera(const Camera& camera, const std::string& label) {
-  if (!all_finite(camera)) return invalid(label, "a calibration value is not finite");
-  const auto size = std::to_string(camera.width) + " x " + std::to_string(camera.height);
-  if (camera.width < 1 || camera.height < 1 || camera.width > 65535 || camera.height > 65535)
-    return invalid(label, "image size " + size + " is out of range");
-  if (!(camera.fx > 0 && camera.fy > 0))
-    return invalid(label, "the focal length is not positive: it is in pixels");
-  return check_rotation(camera.rotation, label);
-}
-
 bool principal_point_is_far_off(const Camera& camera) {
   return std::abs(camera.cx - 0.5 * camera.width) > kMaxPrincipalOffset * camera.width ||
          std::abs(camera.cy - 0.5 * camera.height) > kMaxPrincipalOffset * camera.height;
@@ -110,6 +100,16 @@ bool far_from_origin(const PointCloud& cloud) {
 }
 
 }  // namespace
+
+Result<Done, InputError> check_camera(const Camera& camera, const std::string& label) {
+  if (!all_finite(camera)) return invalid(label, "a calibration value is not finite");
+  const auto size = std::to_string(camera.width) + " x " + std::to_string(camera.height);
+  if (camera.width < 1 || camera.height < 1 || camera.width > 65535 || camera.height > 65535)
+    return invalid(label, "image size " + size + " is out of range");
+  if (!(camera.fx > 0 && camera.fy > 0))
+    return invalid(label, "the focal length is not positive: it is in pixels");
+  return check_rotation(camera.rotation, label);
+}
 
 Result<Done, InputError> check_cameras(Import& import) {
   auto& capture = import.capture;

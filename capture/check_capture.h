@@ -10,6 +10,10 @@
 
 namespace slf {
 
+/// Sizes, focal lengths, rotation of one.
+/// @param label  for messages
+Result<Done, InputError> check_camera(const Camera& camera, const std::string& label);
+
 /// Sizes, focal lengths, rotations, distinct names. Warnings go to import.capture.
 Result<Done, InputError> check_cameras(Import& import);
 

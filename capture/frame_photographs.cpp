@@ -51,8 +51,12 @@ bool has_numbered_images(const fs::path& directory) {
   const auto bytes = read_file(directory / "cameras.json");
   if (!bytes) return false;
   const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-  for (std::size_t at = text.find('%'); at != text.npos; at = text.find('%', at + 1))
-    if (parse_pattern(text.substr(at, text.find_first_of("/\"%", at + 1) - at))) return true;
+  for (std::size_t at = text.find('%'); at != text.npos; at = text.find('%', at + 1)) {
+    if (!parse_pattern(text.substr(at, text.find_first_of("/\"%", at + 1) - at))) continue;
+    const std::size_t quote = text.rfind('"', at), begin = quote == text.npos ? 0 : quote + 1;
+    const fs::path literal(text.substr(begin, text.find('"', at) - begin));
+    if (!fs::exists(directory / literal, ignored)) return true;  // else a name like any other
+  }
   return false;
 }
 

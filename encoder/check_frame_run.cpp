@@ -32,7 +32,14 @@ Result<Done, InputError> check_frame_run(std::size_t frames, const EncoderSettin
   return Done{};
 }
 
+Result<Done, InputError> of_frame(std::size_t f, const Result<Done, InputError>& checked) {
+  if (checked) return Done{};
+  return InputError{checked.error().code,
+                    "frame " + std::to_string(f) + ": " + checked.error().message};
+}
+
 FramesOfPart frames_of_part(std::size_t frames, const FrameSettings& settings) {
+  if (settings.group < 1 || settings.part < 0 || settings.part >= settings.parts) return {};
   const auto group = static_cast<std::size_t>(settings.group),
              part = static_cast<std::size_t>(settings.part),
              parts = static_cast<std::size_t>(settings.parts);

@@ -12,4 +12,7 @@ namespace slf {
 Result<Done, InputError> check_frame_run(std::size_t frames, const EncoderSettings& settings,
                                          const FrameSettings& frame_settings);
 
+/// What was found of one of them, with its place in the message.
+Result<Done, InputError> of_frame(std::size_t f, const Result<Done, InputError>& checked);
+
 }  // namespace slf

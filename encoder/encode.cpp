@@ -160,6 +160,9 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   Encoded& encoded = job.encoded;
   if (cameras.empty() && !capture.cameras.empty())
     return InputError{Errc::kInvalidArgument, "none of the capture's cameras is to be used"};
+  if (cameras.empty() && settings.surface != Surface::kAuto && settings.surface != Surface::kGiven)
+    return InputError{Errc::kInvalidArgument, "surface " + std::string(word_of(settings.surface)) +
+                                                  ": for photographs, and there are none"};
   if (cameras.empty()) fit_colours_alone(settings);
   settings.observe.threads = settings.fit.threads = settings.threads;
   encoded.cameras = foreign;
@@ -225,6 +228,7 @@ Result<PoseReport, InputError> poses_of(const Capture& capture, StartId start,
 
 Result<Encoded, InputError> encode(const Capture& given, std::span<const int> cameras,
                                    const EncoderSettings& settings, const Progress& progress) {
+  SLF_CHECK(check_capture(given, cameras));
   const std::optional<Capture> within = photographs_within(given, settings.photograph_pixels);
   const Capture& capture = within ? *within : given;
   SLF_TRY(std::optional<StartingPoints> points, other_start(capture, cameras, settings));

@@ -228,6 +228,7 @@ Result<PlannedFrames, InputError> plan_frames(std::size_t frames, const LoadFram
   for (std::size_t f = 0; f < frames; ++f) {
     if (progress) progress("load", static_cast<double>(f) / static_cast<double>(frames));
     SLF_TRY(LoadedFrame frame, load(f));
+    SLF_CHECK(of_frame(f, check_capture(frame.capture, frame.cameras)));
     if (auto within = photographs_within(frame.capture, settings.photograph_pixels))
       frame.capture = *std::move(within);
     plan.points.push_back(frame.capture.cloud.positions.size());

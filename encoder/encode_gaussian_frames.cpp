@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Splats of several instants to one stream.
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "base/vec3.h"
 #include "bitstream/units.h"
 #include "encoder/check_frame_run.h"
 #include "encoder/frames_to_bitrate.h"
@@ -25,17 +27,29 @@ struct GaussianRun {
   const Vec3& origin;
   GaussianExtent extent;
   std::vector<std::size_t> points;
+  std::optional<Vec3> base;  ///< what positions of all frames are from: that of the first splats
+
+  /// What a frame shows.
+  /// @param given  receives how many splats it has
+  Result<Gaussians, InputError> shown_of(std::size_t f, std::size_t& given) const {
+    SLF_TRY(Gaussians splats, load(f));
+    SLF_CHECK(of_frame(f, check_gaussians(splats)));
+    given = splats.size();
+    const Vec3 by = minus(splats.origin, base.value_or(splats.origin));
+    if (by != Vec3{0, 0, 0})
+      for (auto& at : splats.positions) at = to_float(plus(to_double(at), by));
+    if (base) splats.origin = *base;
+    return that_show(std::move(splats));
+  }
 
   Result<Done, InputError> look() {
     for (std::size_t f = 0; f < frames; ++f) {
       if (progress) progress("load", static_cast<double>(f) / static_cast<double>(frames));
-      SLF_TRY(Gaussians splats, load(f));
-      const Gaussians shown = that_show(std::move(splats));
+      std::size_t given = 0;
+      SLF_TRY(const Gaussians shown, shown_of(f, given));
+      if (!base && shown.size() > 0) base = shown.origin;
       points.push_back(shown.size());
-      if (auto added = extent.add(shown); !added) {
-        const InputError& error = added.error();
-        return InputError{error.code, "frame " + std::to_string(f) + ": " + error.message};
-      }
+      SLF_CHECK(of_frame(f, extent.add(shown)));
     }
     if (extent.is_empty())
       return InputError{Errc::kInvalidArgument,
@@ -49,16 +63,16 @@ struct GaussianRun {
     own.q = q;
     SLF_TRY(GaussianFrameEncoder encoder,
             GaussianFrameEncoder::open(extent, own, frame_settings.group,
-                                       static_cast<std::uint32_t>(first), origin));
+                                       static_cast<std::uint32_t>(first),
+                                       plus(origin, base.value_or(Vec3{0, 0, 0}))));
     encoded.grid = encoder.grid();
     encoded.q = encoder.q();
     encoded.frames.clear();
     for (std::size_t f = first; f < first + count; ++f) {
       if (progress) progress("frames", static_cast<double>(f - first) / static_cast<double>(count));
       Stopwatch watch;
-      SLF_TRY(Gaussians splats, load(f));
-      const std::size_t given = splats.size();
-      const Gaussians shown = that_show(std::move(splats));
+      std::size_t given = 0;
+      SLF_TRY(const Gaussians shown, shown_of(f, given));
       SLF_TRY(const auto bytes, encoder.add(shown, static_cast<double>(f) / frame_settings.rate));
       SLF_CHECK(take(f, bytes));
       EncodedFrame frame;
@@ -82,8 +96,9 @@ Result<PlannedFrames, InputError> plan_gaussian_frames(std::size_t frames,
                                                        const FrameSettings& frame_settings,
                                                        const Progress& progress) {
   SLF_CHECK(check_frame_run(frames, settings, frame_settings));
+  SLF_CHECK(check_coding_of_splats(settings));
   const Vec3 origin{0, 0, 0};
-  GaussianRun run{frames, load, settings, frame_settings, progress, origin, {}, {}};
+  GaussianRun run{frames, load, settings, frame_settings, progress, origin, {}, {}, {}};
   SLF_CHECK(run.look());
   PlannedFrames plan;
   SLF_TRY(plan.grid,
@@ -99,7 +114,8 @@ Result<EncodedFrames, InputError> encode_gaussian_frames(
     const FrameSettings& frame_settings, const TakeFrame& take, const Progress& progress,
     const Vec3& origin) {
   SLF_CHECK(check_frame_run(frames, settings, frame_settings));
-  GaussianRun run{frames, load, settings, frame_settings, progress, origin, {}, {}};
+  SLF_CHECK(check_coding_of_splats(settings));
+  GaussianRun run{frames, load, settings, frame_settings, progress, origin, {}, {}, {}};
   SLF_CHECK(run.look());
   std::size_t chooser = 0;
   while (run.points[chooser] == 0) ++chooser;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/vec3.h"
 #include "codec/encoder/pack_frame.h"
 #include "encoder/encode_to_target.h"
 #include "encoder/gaussian_coding.h"
@@ -29,14 +30,12 @@ class GaussianEncoder {
   GaussianEncoder(const Gaussians& splats, const EncoderSettings& settings, const Vec3& origin)
       : splats_(splats),
         settings_(settings),
-        origin_(origin),
-        deviation_(typical_deviation(splats)),
-        extent_(extent_of(splats)) {}
+        origin_(plus(origin, splats.origin)),
+        sizes_{typical_deviation(splats), room_of(splats), extent_of(splats)} {}
 
   Result<double, InputError> code(double q, EncodedGaussians& out) const {
     SLF_TRY(LightField field,
-            light_field_of(splats_, grid_step_of(q, deviation_, extent_, settings_),
-                           settings_.threads));
+            light_field_of(splats_, grid_step_of(q, sizes_, settings_), settings_.threads));
     for (std::size_t k = 0; k < 3; ++k) field.header.grid.origin[k] += origin_[k];
     field.header.metres_per_unit = settings_.metres_per_unit;
     CodingParameters parameters =
@@ -53,7 +52,7 @@ class GaussianEncoder {
   const Gaussians& splats_;
   const EncoderSettings& settings_;
   Vec3 origin_;
-  double deviation_, extent_;
+  SplatSizes sizes_;
 };
 
 Result<Done, InputError> code_to_bytes(const GaussianEncoder& encoder, std::uint64_t bytes,
@@ -97,10 +96,10 @@ Result<Gaussians, InputError> decoded_gaussians(std::span<const std::uint8_t> st
 Result<EncodedGaussians, InputError> encode_gaussians(Gaussians splats,
                                                       const EncoderSettings& settings,
                                                       const Vec3& origin) {
+  SLF_CHECK(check_coding_of_splats(settings));
+  SLF_CHECK(check_gaussians(splats));
   if (settings.target_bitrate > 0)
     return InputError{Errc::kInvalidArgument, "target bitrate: of frames in time alone"};
-  if (!(settings.target_psnr >= 0 && settings.target_psnr <= 100))
-    return InputError{Errc::kInvalidArgument, "target PSNR: 0 to 100 dB"};
   if (settings.target_psnr > 0 && settings.target_bytes > 0)
     return InputError{Errc::kInvalidArgument, "target: bytes or PSNR, not both"};
   const std::size_t given = splats.size();

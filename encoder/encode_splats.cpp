@@ -80,7 +80,10 @@ Result<SplatTrial, InputError> tried(const SplatJob& job, int iterations, std::s
   if (splats > 0) training.surfels = splats;
   SLF_TRY(trial.splats, train_gaussians(job.capture, job.fitted, training, job.progress));
   if (trial.splats.size() == 0) return trial;
-  SLF_TRY(trial.file, coded_splats(trial.splats, job.capture, job.held_out, job.settings));
+  auto file = coded_splats(trial.splats, job.capture, job.held_out, job.settings);
+  if (!file && file.error().code != Errc::kInvalidInput) return file.error();
+  if (!file) return SplatTrial{};  // no grid holds them: nothing to choose
+  trial.file = *file;
   trial.file.splats = trial.splats.size();
   return trial;
 }
@@ -196,7 +199,7 @@ Result<Encoded, InputError> encode_splats(const Capture& capture, StartId start,
   EncoderSettings coding = coding_of_splats(settings);
   coding.metadata.insert(coding.metadata.begin(), {{"surface", word_of(Surface::kSplats)},
                                                    {"cameras", std::to_string(cameras.size())}});
-  if (!cache.outlined) coding.metadata.emplace_back("view", middle_view(capture, cameras, cache));
+  add_middle_view(capture, cameras, cache, settings.metadata, coding.metadata);
   if (progress) progress("code", 0);
   coding.target_bytes = 0;
   coding.target_psnr = 0;

@@ -91,9 +91,9 @@ Result<TrainedFrames, InputError> trained_frames(std::size_t frames, const LoadF
     };
     SLF_TRY(Gaussians splats, training.next(frame.capture, frame.cameras, of_frame));
     if (splats.size() == 0) return invalid_input("photographs agree on nothing: no splat was left");
-    if (f == 0 && !training.cache().outlined)
-      out.metadata.emplace_back("view",
-                                middle_view(frame.capture, frame.cameras, training.cache()));
+    if (f == 0)
+      add_middle_view(frame.capture, frame.cameras, training.cache(), settings.metadata,
+                      out.metadata);
     out.still.push_back(f == 0 ? 0 : count_still(out.splats.back(), splats));
     out.splats.push_back(std::move(splats));
     out.seconds.push_back(watch.lap());

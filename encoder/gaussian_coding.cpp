@@ -5,11 +5,14 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "encoder/check_settings.h"
 #include "encoder/component_planes.h"
+#include "encoder/gaussian_planes.h"
 #include "geometry/morton.h"
 #include "lightfield/keep_splats.h"
 
@@ -20,6 +23,9 @@ namespace {
 // middlebury_dino, 4,000 and 6,000 splats. docs/decisions/024
 constexpr double kOpacityShare = 0.04, kShapeShare = 0.019, kPositionShare = 0.014;
 
+constexpr int kMostGridBits = 21;
+constexpr double kMostCrowded = 64;  // times finer, for room: copies of one splat get none
+
 constexpr std::array kLevelShares{1.0 / 6, 1.0 / 3, 3.0 / 4};
 
 /// What the reference rasteriser never draws.
@@ -28,6 +34,14 @@ const double kLeastLogit = -std::log(254.0);
 }  // namespace
 
 GaussianSteps steps_of(double q) { return {q, kOpacityShare * q, kShapeShare * q}; }
+
+Result<Done, InputError> check_coding_of_splats(const EncoderSettings& settings) {
+  SLF_CHECK(check_settings(settings));
+  if (settings.geometry == GeometryCoder::kOctree &&
+      settings.coefficients != CoefficientCoder::kTexture)
+    return Done{};
+  return InputError{Errc::kInvalidArgument, "splats: no Draco, and no texture maps"};
+}
 
 Gaussians that_show(Gaussians splats) {
   keep_splats(splats, [&](std::size_t p) { return !(double{splats.logits[p]} < kLeastLogit); });
@@ -44,10 +58,32 @@ double typical_deviation(const Gaussians& splats) {
   return std::exp(double{*place});
 }
 
-double grid_step_of(double q, double deviation, double extent, const EncoderSettings& settings) {
+double room_of(const Gaussians& splats) {
+  if (splats.size() == 1) return std::numeric_limits<double>::infinity();
+  const auto [low, high] = bounds_of(splats);
+  const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  if (!(extent > 0)) return 0;
+  const Grid finest{low, extent / ((1 << kMostGridBits) - 1), kMostGridBits};
+  std::vector<std::uint64_t> codes = codes_of(splats, finest);
+  std::sort(codes.begin(), codes.end());
+  // Neighbours in that order part where their codes first differ.
+  std::array<std::size_t, kMostGridBits + 1> parted{};
+  for (std::size_t i = 1; i < codes.size(); ++i)
+    if (const std::uint64_t differ = codes[i] ^ codes[i - 1]; differ != 0)
+      ++parted[std::size_t(kMostGridBits - (static_cast<int>(std::bit_width(differ)) - 1) / 3)];
+  std::size_t occupied = 1;
+  for (int level = 0; level < kMostGridBits; ++level) {
+    occupied += parted[std::size_t(level)];
+    if (4 * occupied >= 3 * codes.size()) return std::ldexp(extent, -level);
+  }
+  return finest.step;
+}
+
+double grid_step_of(double q, const SplatSizes& sizes, const EncoderSettings& settings) {
   if (settings.voxel_size > 0) return settings.voxel_size;
-  if (settings.grid_bits > 0) return extent / ((1 << settings.grid_bits) - 1);
-  return kPositionShare * q * deviation;
+  if (settings.grid_bits > 0) return sizes.extent / ((1 << settings.grid_bits) - 1);
+  const double step = kPositionShare * q * sizes.deviation;
+  return std::clamp(sizes.room, step / kMostCrowded, step);
 }
 
 Metadata metadata_of_gaussians(double q, const EncoderSettings& settings) {

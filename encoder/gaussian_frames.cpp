@@ -13,7 +13,7 @@ namespace slf {
 
 Result<Done, InputError> GaussianExtent::add(const Gaussians& shown) {
   if (shown.size() == 0) return Done{};
-  if (!first_) first_ = First{shown.degree, shown.up, typical_deviation(shown)};
+  if (!first_) first_ = First{shown.degree, shown.up, {typical_deviation(shown), room_of(shown)}};
   if (shown.degree != first_->degree)
     return invalid_input("splats have harmonics of degree " + std::to_string(shown.degree) +
                          ", and those of the frames before of degree " +
@@ -34,9 +34,10 @@ void GaussianExtent::widen(const std::array<Vec3, 2>& box, std::size_t splats) {
 }
 
 Result<Grid, InputError> GaussianExtent::grid(double q, const EncoderSettings& settings) const {
-  double extent = 0;
-  for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, box_[1][k] - box_[0][k]);
-  return grid_around(box_, grid_step_of(q, first_->deviation, extent, settings), most_);
+  SplatSizes sizes = first_->sizes;
+  for (std::size_t k = 0; k < 3; ++k)
+    sizes.extent = std::max(sizes.extent, box_[1][k] - box_[0][k]);
+  return grid_around(box_, grid_step_of(q, sizes, settings), most_);
 }
 
 LightFieldHeader GaussianExtent::header(const Grid& grid) const {

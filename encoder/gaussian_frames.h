@@ -37,7 +37,7 @@ class GaussianExtent {
   struct First {
     int degree;
     UpAxis up;
-    double deviation;
+    SplatSizes sizes;
   };
   std::optional<First> first_;
   std::array<Vec3, 2> box_{};

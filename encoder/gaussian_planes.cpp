@@ -20,19 +20,6 @@ namespace {
 constexpr std::size_t kSplatGrain = 1024;
 constexpr int kMostBits = 21;
 
-std::vector<std::uint64_t> codes_of(const Gaussians& splats, const Grid& grid) {
-  std::vector<std::uint64_t> codes(splats.size());
-  for (std::size_t p = 0; p < codes.size(); ++p) {
-    Voxel v;
-    for (std::size_t k = 0; k < 3; ++k)
-      v[k] = static_cast<std::int32_t>(
-          std::clamp(std::lround((double{splats.positions[p][k]} - grid.origin[k]) / grid.step), 0L,
-                     (1L << grid.bits) - 1));
-    codes[p] = morton(v);
-  }
-  return codes;
-}
-
 /// Ascending codes made different: a repeated one moves up to the next that is free, and at the end
 /// of the grid down. False: the grid has fewer voxels.
 bool spread(std::vector<std::uint64_t>& codes, int bits) {
@@ -75,6 +62,19 @@ void put_planes(const Gaussians& splats, std::size_t p, std::int32_t* to) {
 }
 
 }  // namespace
+
+std::vector<std::uint64_t> codes_of(const Gaussians& splats, const Grid& grid) {
+  std::vector<std::uint64_t> codes(splats.size());
+  for (std::size_t p = 0; p < codes.size(); ++p) {
+    Voxel v;
+    for (std::size_t k = 0; k < 3; ++k)
+      v[k] = static_cast<std::int32_t>(
+          std::clamp(std::lround((double{splats.positions[p][k]} - grid.origin[k]) / grid.step), 0L,
+                     (1L << grid.bits) - 1));
+    codes[p] = morton(v);
+  }
+  return codes;
+}
 
 std::array<Vec3, 2> bounds_of(const Gaussians& splats) {
   Vec3 low, high;

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "base/shortest.h"
 #include "base/vec3.h"
 
 namespace slf {
+namespace {
+
 std::string middle_view(const Capture& capture, std::span<const int> cameras,
                         const TrainingCache& cache) {
   const auto camera_of = [&](int index) -> const Camera& {
@@ -35,6 +38,16 @@ std::string middle_view(const Capture& capture, std::span<const int> cameras,
   for (const double value : eye) out += shortest(value) + " ";
   for (std::size_t k = 0; k < 3; ++k) out += shortest(eye[k] + depth * camera.rotation[2][k]) + " ";
   return out + shortest(std::clamp(2 * std::atan(half_side) * 180 / std::numbers::pi, 1.0, 170.0));
+}
+
+}  // namespace
+
+void add_middle_view(const Capture& capture, std::span<const int> cameras,
+                     const TrainingCache& cache, const Metadata& named, Metadata& metadata) {
+  if (cache.outlined || std::any_of(named.begin(), named.end(),
+                                    [](const auto& pair) { return pair.first == "view"; }))
+    return;
+  metadata.emplace_back("view", middle_view(capture, cameras, cache));
 }
 
 }  // namespace slf

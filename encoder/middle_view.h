@@ -3,18 +3,18 @@
 #pragma once
 
 #include <span>
-#include <string>
 
 #include "encoder/train/training_cache.h"
 #include "slf/capture.h"
 
 namespace slf {
 
-/// The view of the camera in the middle of the others, as metadata has it (`view`,
-/// spec/registry.md).
+/// Adds the view of the camera in the middle of the others (`view`, spec/registry.md), unless
+/// outlines show one object, or the metadata of a file name a view.
+/// @param named    of the file
 /// @param cameras  at least one
-/// @param cache  after a training by them
-std::string middle_view(const Capture& capture, std::span<const int> cameras,
-                        const TrainingCache& cache);
+/// @param cache    after a training by them
+void add_middle_view(const Capture& capture, std::span<const int> cameras,
+                     const TrainingCache& cache, const Metadata& named, Metadata& metadata);
 
 }  // namespace slf

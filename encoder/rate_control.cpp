@@ -32,7 +32,9 @@ double rounded(double q, int digits = 4) {
 double between(const Trial& above, const Trial& below, const StepGoal& goal, bool halve) {
   const double middle = (goal.least + goal.most) / 2;
   const double share = (above.value - middle) / (above.value - below.value);
-  return above.log_q + (halve ? 0.5 : std::clamp(share, 0.05, 0.95)) * (below.log_q - above.log_q);
+  const bool infinite = !std::isfinite(above.value - below.value);  // PSNR of what is exact
+  return above.log_q +
+         (halve || infinite ? 0.5 : std::clamp(share, 0.05, 0.95)) * (below.log_q - above.log_q);
 }
 
 }  // namespace

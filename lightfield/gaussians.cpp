@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <string>
 
+#include "lightfield/float_origin.h"
 #include "lightfield/gaussian_values.h"
 #include "lightfield/symmetric3.h"
 #include "lightfield/view_planes.h"
@@ -18,6 +21,7 @@ namespace {
 
 constexpr std::size_t kSplatsPerRange = 1024;
 constexpr int kMostDegree = 4;
+constexpr float kUnitTolerance = 0.01F;   // of a quaternion's square
 constexpr double kMostCoordinate = 1e15;  // squares of differences stay finite in floats
 
 /// Coefficients of harmonics on the unit sphere, towards the splat.
@@ -30,6 +34,30 @@ void put_harmonics(const PointValues& value, const Matrix3x3& to_rgb, int degree
         for (std::size_t d = 0; d < 3; ++d) sum += to_rgb[c][d] * value(k, static_cast<int>(d));
         *out++ = static_cast<float>((l % 2 == 0 ? unit : -unit) * sum);
       }
+}
+
+InputError wrong(const std::string& what) { return {Errc::kInvalidInput, "splats: " + what}; }
+
+Result<Done, InputError> check_count(const char* name, std::size_t count, std::size_t expected) {
+  if (count == expected) return Done{};
+  return wrong(std::string(name) + ": " + std::to_string(count) + " entries in place of " +
+               std::to_string(expected));
+}
+
+/// @param values  [splats][n]
+Result<Done, InputError> check_finite(const char* name, std::span<const float> values,
+                                      std::size_t n) {
+  const auto bad =
+      std::find_if_not(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
+  if (bad == values.end()) return Done{};
+  return wrong(std::string(name) + ": splat " +
+               std::to_string(std::size_t(bad - values.begin()) / n) +
+               " has a value that is not finite");
+}
+
+template <std::size_t N>
+std::span<const float> flat(const std::vector<std::array<float, N>>& rows) {
+  return {rows.empty() ? nullptr : rows.front().data(), rows.size() * N};
 }
 
 /// Are all functions of an attribute there, and coded?
@@ -46,6 +74,30 @@ bool has_attribute(const LightFieldHeader& header, AttributeId id, int functions
 }
 
 }  // namespace
+
+Result<Done, InputError> check_gaussians(const Gaussians& g) {
+  if (g.degree < 0 || g.degree > kMostDegree)
+    return wrong("degree " + std::to_string(g.degree) + ", of 0 to 4");
+  const std::size_t size = g.size(), of_harmonics = 3 * g.num_harmonics();
+  SLF_CHECK(check_count("log_deviations", g.log_deviations.size(), size));
+  SLF_CHECK(check_count("rotations", g.rotations.size(), size));
+  SLF_CHECK(check_count("logits", g.logits.size(), size));
+  SLF_CHECK(check_count("harmonics", g.harmonics.size(), size * of_harmonics));
+  for (const double x : g.origin)
+    if (!std::isfinite(x)) return wrong("origin: a value that is not finite");
+  SLF_CHECK(check_finite("positions", flat(g.positions), 3));
+  SLF_CHECK(check_finite("log_deviations", flat(g.log_deviations), 3));
+  SLF_CHECK(check_finite("rotations", flat(g.rotations), 4));
+  SLF_CHECK(check_finite("logits", g.logits, 1));
+  SLF_CHECK(check_finite("harmonics", g.harmonics, of_harmonics));
+  for (std::size_t p = 0; p < size; ++p) {
+    float squares = 0;
+    for (const float x : g.rotations[p]) squares += x * x;
+    if (!(std::abs(squares - 1) <= kUnitTolerance))
+      return wrong("rotations: that of splat " + std::to_string(p) + " is no unit quaternion");
+  }
+  return Done{};
+}
 
 bool has_gaussians(const LightFieldHeader& header) {
   return header.has_basis && header.basis.id == BasisId::kHarmonics &&
@@ -69,6 +121,7 @@ Result<Gaussians, InputError> gaussians_of(const LightField& field, int threads)
   Gaussians out;
   out.degree = header.basis.degree;
   out.up = header.up;
+  out.origin = float_origin(header.grid);
   const std::size_t points = field.num_points(), row = 3 * out.num_harmonics();
   out.positions.resize(points);
   out.log_deviations.resize(points);
@@ -79,7 +132,8 @@ Result<Gaussians, InputError> gaussians_of(const LightField& field, int threads)
     for (std::size_t p = begin; p < end; ++p) {
       const PointValues value(units, &planes[p * 3 * units.size()]);
       const Vec3 at = header.grid.world(field.positions[p]);
-      for (std::size_t i = 0; i < 3; ++i) out.positions[p][i] = static_cast<float>(at[i]);
+      for (std::size_t i = 0; i < 3; ++i)
+        out.positions[p][i] = static_cast<float>(at[i] - out.origin[i]);
       out.logits[p] = static_cast<float>(logit_of(value, functions));
       const Axes3 axes = shape_axes(header, value, functions);
       for (std::size_t i = 0; i < 3; ++i)

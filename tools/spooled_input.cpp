@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -25,11 +28,11 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostSpooled = std::uint64_t{1} << 32;  // as of any input that is held
 constexpr std::size_t kSpoolBlock = std::size_t{1} << 20;
 
-/// Fills the span as far as there is something on standard input.
-Result<std::size_t, Failure> read_standard(std::span<std::uint8_t> to) {
+/// Fills the span as far as there is something in the stream.
+Result<std::size_t, Failure> read_stream(int from, std::span<std::uint8_t> to) {
   std::size_t done = 0;
   while (done < to.size()) {
-    const ssize_t count = ::read(STDIN_FILENO, to.data() + done, to.size() - done);
+    const ssize_t count = ::read(from, to.data() + done, to.size() - done);
     if (count == 0) break;
     if (count < 0 && errno != EINTR)
       return Failure{kInputUnreadable, std::string("standard input: ") + std::strerror(errno)};
@@ -68,13 +71,13 @@ Outcome write_all(int to, std::span<const std::uint8_t> bytes, const fs::path& f
 }
 
 /// @param block  the first one; room for the others
-Outcome copy_standard(int to, std::vector<std::uint8_t> block, const fs::path& file) {
+Outcome copy_stream(int from, int to, std::vector<std::uint8_t> block, const fs::path& file) {
   std::uint64_t all = block.size();
   bool ended = block.size() < kSpoolBlock;
   SLF_CHECK(write_all(to, block, file));
   while (!ended) {
     block.resize(kSpoolBlock);
-    SLF_TRY(const std::size_t count, read_standard(block));
+    SLF_TRY(const std::size_t count, read_stream(from, block));
     all += count;
     if (all > kMostSpooled)
       return Failure{kLimitExceeded, "standard input: larger than the " +
@@ -89,9 +92,19 @@ std::string living;  // path of the one that there is
 
 }  // namespace
 
-Result<SpooledInput, Failure> SpooledInput::read() {
+std::optional<int> SpooledInput::stream_of(const std::string& name) {
+  if (name == "-" || name == "/dev/stdin") return STDIN_FILENO;
+  constexpr std::string_view kOpened = "/dev/fd/";
+  int number = 0;
+  if (!name.starts_with(kOpened)) return std::nullopt;
+  const char* end = name.data() + name.size();
+  const auto read = std::from_chars(name.data() + kOpened.size(), end, number);
+  return read.ec == std::errc() && read.ptr == end ? std::optional(number) : std::nullopt;
+}
+
+Result<SpooledInput, Failure> SpooledInput::read(int stream) {
   std::vector<std::uint8_t> head(kSpoolBlock);
-  SLF_TRY(const std::size_t count, read_standard(head));
+  SLF_TRY(const std::size_t count, read_stream(stream, head));
   head.resize(count);
   if (count == 0) return Failure{kInputInvalid, "standard input: is empty"};
   const std::uint64_t size = count < kSpoolBlock ? count : kMostSpooled;
@@ -109,7 +122,7 @@ Result<SpooledInput, Failure> SpooledInput::read() {
   remove_at_interrupt(spooled.file_.c_str(), spooled.directory_.c_str());
   const int to = ::open(spooled.file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (to < 0) return no_room(spooled.file_);
-  Outcome copied = copy_standard(to, std::move(head), spooled.file_);
+  Outcome copied = copy_stream(stream, to, std::move(head), spooled.file_);
   if (::close(to) != 0 && copied) copied = no_room(spooled.file_);
   if (!copied) return copied.error();
   living = spooled.path();

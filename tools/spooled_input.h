@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "tools/failure.h"
@@ -13,11 +14,15 @@ namespace slf::tools {
 /// with an interrupt. One lives at a time.
 class SpooledInput {
  public:
-  /// All of standard input. What it holds is told by its first bytes, and its name ends as readers
+  /// The number of what the caller has opened: 0 of "-" and /dev/stdin, N of /dev/fd/N, which a
+  /// shell makes of <(command). Nothing: the name of a file.
+  static std::optional<int> stream_of(const std::string& name);
+
+  /// All of such a stream, which messages call standard input. What it holds is told by its first bytes, and its name ends as readers
   /// expect it: "standard input.ply".
   /// @errors kInputInvalid: not a PLY, LAS, E57, STL, GLB or a file of splats; kLimitExceeded: more
   ///         than 4 GiB; kWriteFailed: no room for it
-  static Result<SpooledInput, Failure> read();
+  static Result<SpooledInput, Failure> read(int stream);
 
   SpooledInput(SpooledInput&& other) noexcept;
   SpooledInput& operator=(SpooledInput&&) = delete;

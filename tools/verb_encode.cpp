@@ -144,11 +144,20 @@ std::string report_text(const Encoded& e, const CaptureInput& input, const FileP
   return out;
 }
 
+/// What a cloud has no use for, whatever its value.
+bool is_of_photographs(const std::string& name) {
+  if (name == "surface-seconds" || name == "surface-memory") return true;
+  if (name == "effort") return false;  // of anything: the presets are told by it
+  const auto& settings = encoder_settings();
+  return std::any_of(settings.begin(), settings.end(), [&](const SettingInfo& setting) {
+    return setting.name == name && setting.frames == SettingInfo::kFramesOfPhotographs &&
+           setting.frame_values.empty();
+  });
+}
+
 /// Points alone cannot be mended or trained.
 Outcome check_surface(const EncodeOptions& given, const CaptureInput& input) {
   if (!input.cameras.empty()) return Done{};
-  constexpr std::array kOfPhotographs = {"splats", "surface-seconds", "surface-memory",
-                                         "photograph-pixels"};
   const auto refused = [&](const std::string& option) {
     return Failure{kUsage,
                    "encode: " + option + " is for photographs, and " + given.capture + " has none"};
@@ -159,8 +168,7 @@ Outcome check_surface(const EncodeOptions& given, const CaptureInput& input) {
       return refused("--surface " + value);
     if ((name == "match-exposure" || name == "refine-cameras") && value == "on")
       return refused("--" + name + " on");
-    if (std::find(kOfPhotographs.begin(), kOfPhotographs.end(), name) != kOfPhotographs.end())
-      return refused("--" + name);
+    if (is_of_photographs(name)) return refused("--" + name);
   }
   return Done{};
 }
@@ -275,8 +283,9 @@ void add_encode(CLI::App& program, Run& run) {
       o->frames.part = o->scene.part;
       o->frames.plenoptic = o->plenoptic;
       o->frames.dry_run = o->scene.dry_run;
-      if (o->encode.capture != "-") return encode_any(*o);
-      SLF_TRY(const SpooledInput input, SpooledInput::read());
+      const auto stream = SpooledInput::stream_of(o->encode.capture);
+      if (!stream) return encode_any(*o);
+      SLF_TRY(const SpooledInput input, SpooledInput::read(*stream));
       o->encode.capture = input.path();
       Outcome done = encode_any(*o);
       if (!done) return Failure{done.error().code, SpooledInput::named(done.error().message)};

@@ -29,6 +29,8 @@ Outcome eval_frame_of_views(EvalOptions given) {
 }
 
 Outcome run_eval(const EvalOptions& given) {
+  if (given.frame >= 0 && is_splat_file(given.input))
+    return Failure{kUsage, "eval: --frame is of a .slf, and " + given.input + " is none"};
   if (given.frame >= 0 && !holds_frames(given.capture) && count_plenoptic_views(given.capture) > 0)
     return eval_frame_of_views(given);
   if (small_extension(given.capture) == ".ply" && count_plenoptic_views(given.capture) > 0)

@@ -67,6 +67,13 @@ nlohmann::ordered_json decibels(double psnr) {
   return std::isfinite(psnr) ? nlohmann::ordered_json(psnr) : nlohmann::ordered_json(nullptr);
 }
 
+void warn_of_origin(const Vec3& origin) {
+  if (origin != Vec3{0, 0, 0})
+    warn(text("positions are from %.17g, %.17g, %.17g of the world, since floats cannot hold them",
+              origin[0], origin[1], origin[2]),
+         false);
+}
+
 Outcome report_splats(const ExportOptions& given, const SplatCloud& splats, std::size_t bytes,
                       const SplatLoss& loss, bool partial) {
   const double each = static_cast<double>(bytes) / static_cast<double>(splats.size());
@@ -90,10 +97,7 @@ Outcome report_splats(const ExportOptions& given, const SplatCloud& splats, std:
       "up to degree %d, %.2f dB with one colour a point%s\n",
       grouped(splats.size()).c_str(), grouped(bytes).c_str(), each, loss.psnr, splats.degree,
       loss.psnr_one_colour, partial ? "; PARTIAL" : "");
-  if (splats.origin != Vec3{0, 0, 0})
-    warn(text("positions are from %.17g, %.17g, %.17g of the world, since floats cannot hold them",
-              splats.origin[0], splats.origin[1], splats.origin[2]),
-         false);
+  warn_of_origin(splats.origin);
   return Done{};
 }
 
@@ -118,12 +122,13 @@ Outcome export_points(const ExportOptions& given) {
 /// Splats in another format. Their turns are any, which SPZ 3 holds better.
 Outcome convert_splats(const ExportOptions& given, GaussianFile file, SplatFormat format) {
   if (given.mean || given.axes != "auto" || given.size_given)
-    return Failure{kUsage, "export: --axes and --size are for light fields, and " + given.input +
+    return Failure{kUsage, "export: --mean, --axes and --size are for light fields, and " + given.input +
                                " holds splats"};
   if (given.degree_given) keep_degree(file.gaussians, given.splats.degree);
   if (format == SplatFormat::kSpz && given.spz_version == 0) format = SplatFormat::kSpz3;
   const std::size_t count = file.gaussians.size();
   const int degree = file.gaussians.degree;
+  const Vec3 origin = file.gaussians.origin;
   SLF_TRY(const auto bytes, from(given.input, gaussian_file(std::move(file.gaussians), format,
                                                             given.common.threads)));
   SLF_CHECK(save(given.output, bytes.data(), bytes.size()));
@@ -131,14 +136,16 @@ Outcome convert_splats(const ExportOptions& given, GaussianFile file, SplatForma
   if (given.common.json)
     return print(nlohmann::ordered_json{{"input_format", file.format},
                                         {"splats", count},
+                                        {"origin", origin},
                                         {"left_out", file.left_out},
                                         {"mended", file.mended},
                                         {"degree", degree},
                                         {"bytes", bytes.size()},
                                         {"bytes_per_splat", each}});
-  if (!given.common.quiet)
-    std::fprintf(stderr, "%s splats of %s, %s bytes (%.1f each)\n", grouped(count).c_str(),
-                 file.format.c_str(), grouped(bytes.size()).c_str(), each);
+  if (given.common.quiet) return Done{};
+  std::fprintf(stderr, "%s splats of %s, %s bytes (%.1f each)\n", grouped(count).c_str(),
+               file.format.c_str(), grouped(bytes.size()).c_str(), each);
+  warn_of_origin(origin);
   return Done{};
 }
 

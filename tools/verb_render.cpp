@@ -2,6 +2,7 @@
 // slf render: images from a circle of viewpoints, from a given camera, or beside a photograph.
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -19,17 +20,32 @@
 namespace slf::tools {
 namespace {
 
+constexpr std::int64_t kMostSheetSide = 65535, kMostSheetPixels = 1 << 28;  // as of pictures read
+
 /// A view and where it goes.
 struct View {
   Camera camera;
   std::string file;
 };
 
+/// Before anything is drawn for it.
+Outcome check_sheet(int count, int width, int height) {
+  const int columns = sheet_columns(count), rows = (count + columns - 1) / columns;
+  const std::int64_t wide = std::int64_t{columns} * width, high = std::int64_t{rows} * height;
+  if (wide <= kMostSheetSide && high <= kMostSheetSide && wide * high <= kMostSheetPixels)
+    return Done{};
+  return Failure{kUsage, text("render: a sheet of %d pictures of %d x %d would be an image of %s x "
+                              "%s pixels: fewer, or a smaller --size",
+                              count, width, height, std::to_string(wide).c_str(),
+                              std::to_string(high).c_str())};
+}
+
 Result<std::vector<View>, Failure> orbit_views(const RenderOptions& given,
                                                const RenderScene& scene) {
   int width = 800, height = 800;
   if (!given.size.empty()) parse_size(given.size, width, height);
   const int count = std::max(given.orbit, 1);
+  if (given.sheet) SLF_CHECK(check_sheet(count, width, height));
   std::vector<View> views;
   if (given.own_view)
     if (std::optional<Camera> own = scene.view(width, height))

@@ -84,6 +84,9 @@ Result<Done, InputError> check(const Capture& capture, const ScenePlan& plan, co
     return InputError{Errc::kInvalidInput,
                       "the capture has " + std::to_string(capture.cameras.size()) +
                           " cameras, that of the plan " + std::to_string(plan.capture_cameras)};
+  if (digest_of_photographs(capture) != plan.photographs_digest)
+    return InputError{Errc::kInvalidInput,
+                      "the capture's photographs or calibrations are not those of the plan"};
   if (plan.reduction.size() != plan.capture_cameras)
     return InputError{Errc::kInvalidInput, "plan: reduction: not of as many cameras"};
   SLF_CHECK(check_memory(plan, work));
@@ -102,6 +105,7 @@ Result<std::vector<std::uint8_t>, InputError> encode_part(const Capture& given,
                                                           const ScenePart& part,
                                                           const SceneWork& work,
                                                           const Progress& progress) {
+  SLF_CHECK(check_capture(given, plan.cameras));
   SLF_CHECK(check(given, plan, part, work));
   const Capture capture = scene_cameras(given, plan, cache_of(plan, work));
   SLF_TRY(const auto scene, open_scene(plan, work));

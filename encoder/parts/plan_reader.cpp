@@ -133,6 +133,14 @@ Result<PlannedTransform, InputError> read_transform(const JsonView& json) {
   return t;
 }
 
+Result<std::string, InputError> digest_at(const JsonView& json, const char* name) {
+  SLF_TRY(const JsonView digest, json.at(name));
+  SLF_TRY(std::string text, digest.string());
+  if (text.size() != 64 || text.find_first_not_of("0123456789abcdef") != std::string::npos)
+    return digest.error("64 hexadecimal digits are expected");
+  return text;
+}
+
 Result<Done, InputError> read_scene(const JsonView& json, ScenePlan& plan) {
   SLF_TRY(const int cameras, integer(json, "capture_cameras", 0, 65536));
   plan.capture_cameras = std::size_t(cameras);
@@ -154,11 +162,8 @@ Result<Done, InputError> read_scene(const JsonView& json, ScenePlan& plan) {
   SLF_TRY(plan.spacing, number(json, "spacing", plan.grid.step, kLarge));
   SLF_TRY(const double planning, number(json, "planning_bytes", 0, 1e15));
   plan.planning_bytes = static_cast<std::uint64_t>(planning);
-  SLF_TRY(const JsonView digest, json.at("points_sha256"));
-  SLF_TRY(plan.points_digest, digest.string());
-  if (plan.points_digest.size() != 64 ||
-      plan.points_digest.find_first_not_of("0123456789abcdef") != std::string::npos)
-    return digest.error("64 hexadecimal digits are expected");
+  SLF_TRY(plan.points_digest, digest_at(json, "points_sha256"));
+  SLF_TRY(plan.photographs_digest, digest_at(json, "photographs_sha256"));
   SLF_TRY(plan.base_levels, integer(json, "base_levels", 1, plan.grid.bits - 1));
   SLF_TRY(const auto slices, whole(json, "slices", 1, kMostSlicePoints));
   if (slices.empty() || slices.size() % 2 != 0 || slices.size() > 2u << 16)

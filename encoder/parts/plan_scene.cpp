@@ -251,6 +251,9 @@ Result<ScenePlan, InputError> plan_scene(const Capture& capture, std::span<const
   SLF_TRY(const EncoderSettings settings,
           scene_settings(given, !capture.cameras.empty(), work.threads));
   SLF_CHECK(check_settings(settings));
+  SLF_CHECK(check_capture(capture, cameras));
+  if (cameras.empty() && !capture.cameras.empty())
+    return InputError{Errc::kInvalidArgument, "none of the capture's cameras is to be used"};
   SLF_CHECK(make_directory(work.directory));
   ScenePlan plan;
   plan.settings = given;
@@ -258,6 +261,7 @@ Result<ScenePlan, InputError> plan_scene(const Capture& capture, std::span<const
   plan.cameras.assign(cameras.begin(), cameras.end());
   std::sort(plan.cameras.begin(), plan.cameras.end());
   plan.capture_cameras = capture.cameras.size();
+  plan.photographs_digest = digest_of_photographs(capture);
   plan.origin = capture.origin;
   plan.up = capture.up;
   if (cameras.empty() && capture.cloud.colours.empty())

@@ -94,6 +94,7 @@ std::string write_plan(const ScenePlan& plan) {
          ", \"grid_bits\": " + text(plan.grid.bits) + ", \"spacing\": " + text(plan.spacing) +
          ", \"planning_bytes\": " + text(double(plan.planning_bytes)) +
          ",\n  \"points_sha256\": " + text(plan.points_digest) +
+         ",\n  \"photographs_sha256\": " + text(plan.photographs_digest) +
          ",\n  \"base_levels\": " + text(plan.base_levels) + ", \"slices\": " + list(slices) +
          ",\n  \"fit\": " + fit_text(plan.fit) + ",\n  \"trust\": " + trust_text(plan.trust) +
          ",\n  \"gamma\": " + list(std::array<int, 2>{plan.gamma_min_q7, plan.gamma_max_q7}) +

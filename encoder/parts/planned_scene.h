@@ -31,7 +31,7 @@ struct PlannedScene {
 };
 
 /// Version of the JSON.
-inline constexpr int kPlanVersion = 3;
+inline constexpr int kPlanVersion = 4;
 
 /// Points of the sample that a plan is made on, about, with what is around them.
 inline constexpr std::size_t kPlanSample = 24000;

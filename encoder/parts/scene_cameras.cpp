@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 
+#include "base/hexadecimal.h"
 #include "base/vec3.h"
 #include "capture/image_cache.h"
 #include "capture/photograph_size.h"
@@ -82,6 +85,31 @@ Capture scene_cameras(const Capture& capture, const ScenePlan& plan, std::uint64
 
 std::uint64_t cache_of(const ScenePlan& plan, const SceneWork& work) {
   return (work.memory - std::min(work.memory, cost_of(plan).memory)) / 2;
+}
+
+void add_calibrations(std::span<const Camera> cameras, Sha256& sha) {
+  const auto add = [&](const auto& value) {
+    sha.update({reinterpret_cast<const std::uint8_t*>(&value), sizeof value});
+  };
+  for (const Camera& camera : cameras) {
+    for (const double x :
+         {double(camera.width), double(camera.height), camera.fx, camera.fy, camera.cx, camera.cy})
+      add(x);
+    add(camera.distortion);
+    add(camera.rotation);
+    add(camera.translation);
+  }
+}
+
+std::string digest_of_photographs(const Capture& capture) {
+  Sha256 sha;
+  add_calibrations(capture.cameras, sha);
+  for (const std::filesystem::path& file : capture.image_files) {
+    std::error_code ignored;
+    const std::uint64_t bytes = std::filesystem::file_size(file, ignored);
+    sha.update({reinterpret_cast<const std::uint8_t*>(&bytes), sizeof bytes});
+  }
+  return hexadecimal(sha.finish());
 }
 
 }  // namespace slf

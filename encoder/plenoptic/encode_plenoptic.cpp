@@ -3,6 +3,7 @@
 #include "base/error_words.h"
 #include "base/stopwatch.h"
 #include "codec/encoder/pack_frame.h"
+#include "encoder/check_settings.h"
 #include "encoder/coding_parameters.h"
 #include "encoder/plenoptic/corrections.h"
 #include "encoder/plenoptic/plenoptic_coding.h"
@@ -84,6 +85,8 @@ Result<PlenopticEncoded, InputError> encode_plenoptic(PlenopticCloud cloud,
   std::string reason;
   const PlenopticCoding as = choose_coding(settings, reason);
   if (cloud.num_points() == 0) return InputError{Errc::kInvalidInput, "no points"};
+  SLF_CHECK(check_settings(settings.encoder));
+  SLF_CHECK(check_plenoptic_cloud(cloud));
   SLF_CHECK(check_plenoptic(cloud, settings, as));
   PlenopticRecord record = record_of(cloud, settings, as);
   EncoderSettings encoder = settings.encoder;

@@ -55,12 +55,6 @@ struct CloudRun {
   Result<LightField, InputError> field_of(const CloudCoding& coding, PlenopticCloud& cloud) const;
 };
 
-Result<Done, InputError> of_place(std::size_t f, const Result<Done, InputError>& checked) {
-  if (checked) return Done{};
-  return InputError{checked.error().code,
-                    "frame " + std::to_string(f) + ": " + checked.error().message};
-}
-
 Result<Done, InputError> CloudRun::look() {
   PlenopticGrid grid;
   std::size_t merged = 0;
@@ -69,13 +63,14 @@ Result<Done, InputError> CloudRun::look() {
     SLF_TRY(PlenopticCloud cloud, load(f));
     points.push_back(cloud.num_points());
     if (cloud.num_points() == 0) continue;
-    SLF_CHECK(of_place(f, grid.add(cloud)));
+    SLF_CHECK(of_frame(f, check_plenoptic_cloud(cloud)));
+    SLF_CHECK(of_frame(f, grid.add(cloud)));
     mean = mean && own_is_mean(cloud);
     merged += cloud.merged;
     cloud.positions.clear();
     cloud.colours.clear();
     if (like.views > 0) {
-      SLF_CHECK(of_place(f, check_same_views(like, cloud)));
+      SLF_CHECK(of_frame(f, check_same_views(like, cloud)));
     } else {
       chooser = f;
       like = std::move(cloud);

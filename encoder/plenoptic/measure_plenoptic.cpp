@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error_sum.h"
+#include "encoder/plenoptic/plenoptic_coding.h"
 #include "slf/plenoptic.h"
 
 namespace slf {
@@ -22,6 +23,8 @@ double psnr_of(double squares, std::size_t count) {
 
 Result<PlenopticQuality, InputError> measure_plenoptic(const PlenopticCloud& decoded,
                                                        const PlenopticCloud& original) {
+  SLF_CHECK(check_plenoptic_cloud(decoded));
+  SLF_CHECK(check_plenoptic_cloud(original));
   if (decoded.positions != original.positions)
     return InputError{Errc::kInvalidInput, "the file has other points than the cloud: " +
                                                std::to_string(decoded.num_points()) + " and " +

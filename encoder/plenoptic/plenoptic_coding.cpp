@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "base/input_error.h"
 #include "encoder/coding_parameters.h"
@@ -31,7 +32,44 @@ std::uint64_t held_by_view_maps(const PlenopticCloud& cloud, std::uint64_t point
          points * (3 * cloud.num_colours() + kHeldByPoint);
 }
 
+InputError wrong_cloud(const std::string& what) {
+  return {Errc::kInvalidInput, "plenoptic cloud: " + what};
+}
+
 }  // namespace
+
+Result<Done, InputError> check_plenoptic_cloud(const PlenopticCloud& cloud) {
+  if (cloud.views < 1 || cloud.views > kMostViews)
+    return wrong_cloud(std::to_string(cloud.views) + " views, of 1 to " +
+                       std::to_string(kMostViews));
+  const std::size_t bytes = 3 * cloud.num_points() * cloud.num_colours();
+  if (cloud.colours.size() != bytes)
+    return wrong_cloud("colours: " + std::to_string(cloud.colours.size()) + " bytes in place of " +
+                       std::to_string(bytes));
+  if (!cloud.view_positions.empty() && cloud.view_positions.size() != cloud.views)
+    return wrong_cloud("view_positions: " + std::to_string(cloud.view_positions.size()) + " of " +
+                       std::to_string(cloud.views) + " views");
+  for (const Vec3& at : cloud.view_positions)
+    if (!std::isfinite(at[0]) || !std::isfinite(at[1]) || !std::isfinite(at[2]))
+      return wrong_cloud("view_positions: a value that is not finite");
+  const std::size_t properties = 3 + 3 * cloud.num_colours();
+  if (cloud.properties.empty() || cloud.properties.size() == properties) return Done{};
+  return wrong_cloud("properties: " + std::to_string(cloud.properties.size()) + " in place of " +
+                     std::to_string(properties));
+}
+
+std::vector<PlenopticProperty> properties_of(const PlenopticCloud& cloud) {
+  if (!cloud.properties.empty()) return cloud.properties;
+  std::vector<PlenopticProperty> made;
+  for (const char* axis : {"x", "y", "z"}) made.push_back({"float", axis});
+  const auto add = [&](const std::string& of_view) {
+    for (const char* channel : {"red", "green", "blue"})
+      made.push_back({"uchar", channel + of_view});
+  };
+  if (cloud.own_colour) add("");
+  for (std::size_t v = 0; v < cloud.views; ++v) add("_" + std::to_string(v));
+  return made;
+}
 
 Result<Done, InputError> check_plenoptic(const PlenopticCloud& cloud,
                                          const PlenopticSettings& settings, PlenopticCoding as) {
@@ -102,7 +140,7 @@ PlenopticRecord record_of(const PlenopticCloud& cloud, const PlenopticSettings& 
   record.as = as;
   record.hold_out = settings.hold_out;
   record.view_positions = cloud.view_positions;
-  record.properties = cloud.properties;
+  record.properties = properties_of(cloud);
   record.views = cloud.views;
   record.own_colour = cloud.own_colour;
   return record;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "encoder/fit_capture.h"
 #include "encoder/plenoptic/plenoptic_metadata.h"
@@ -10,6 +11,12 @@
 #include "slf/plenoptic.h"
 
 namespace slf {
+
+/// @errors kInvalidInput: parts of the cloud that do not go together, by name
+Result<Done, InputError> check_plenoptic_cloud(const PlenopticCloud& cloud);
+
+/// Those that a file of the cloud has: its own, or made up where it has none.
+std::vector<PlenopticProperty> properties_of(const PlenopticCloud& cloud);
 
 /// @errors kInvalidArgument, kInvalidInput: a setting that such clouds do not have, views that are
 ///         not there

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/vec3.h"
 #include "encoder/measure/outlines.h"
 #include "encoder/train/tile_pixels.h"
 #include "encoder/train/train_gaussians.h"
@@ -46,7 +47,9 @@ TrainedSurfel surfel_of(const Gaussians& splats, std::size_t p, const Vec3& orig
 
 Result<PointCloud, InputError> surface_of_splats(const Gaussians& splats, const Capture& capture,
                                                  std::span<const int> cameras, int threads) {
-  return surface_of_splats_from(capture.origin, splats, capture, cameras, threads);
+  SLF_CHECK(check_gaussians(splats));
+  return surface_of_splats_from(minus(capture.origin, splats.origin), splats, capture, cameras,
+                                threads);
 }
 
 Result<PointCloud, InputError> surface_of_splats_from(const Vec3& origin, const Gaussians& splats,

@@ -78,7 +78,7 @@ struct Capture {
                          ///< and points that are made of a capture. Origins of cloud and mesh are 0
   PointCloud cloud;
   bool has_geometry = true;  ///< false: cameras alone, not even a cloud without points
-  Mesh mesh;                 ///< what `cloud` is a sample of, one point for every voxel that the photographs
+  Mesh mesh;  ///< what `cloud` is a sample of, one point for every voxel that the photographs
               ///< resolve; without triangles: the cloud is the capture's own
   std::vector<Camera> cameras;                     ///< in the capture's order
   std::vector<std::filesystem::path> image_files;  ///< [cameras], absolute
@@ -129,6 +129,12 @@ struct CaptureOptions {
 /// @errors kUnreadable: a file is missing. kInvalidInput: names file and cause.
 Result<Capture, InputError> load_capture(const std::filesystem::path& path,
                                          const CaptureOptions& options = {});
+
+/// A capture that a program made in memory, and cameras of it: indices, calibrations, vectors that
+/// go together, images as large as they say, finite points, faces of vertices that are there. What
+/// encodes a capture calls it; load_capture() gives nothing else. O(points + faces + cameras).
+/// @errors kInvalidArgument: an index that is no camera. kInvalidInput: the rest, by name
+Result<Done, InputError> check_capture(const Capture& capture, std::span<const int> cameras);
 
 /// A coordinate reference system as well-known text (OGC 01-009, ISO 19162), of a .prj or .wkt
 /// file.
@@ -231,7 +237,7 @@ struct Density {
 };
 
 /// Without cameras, or where they see nothing, half of the cloud's own spacing.
-/// @param cameras  the input cameras
+/// @param cameras  the input cameras, which check_capture() accepts
 /// The same for any thread count. O(cameras + log P) for each of a sample of points.
 Density choose_density(const Capture& capture, std::span<const int> cameras,
                        DensifySettings densify = {});

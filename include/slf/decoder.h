@@ -44,7 +44,8 @@ struct DecodeOptions {
   std::function<bool(double fraction)> progress = {};
 };
 
-/// Decodes one SLF sequence held in memory.
+/// Decodes one SLF sequence held in memory. Of a stream of frames it is the first one:
+/// slf/frames.h has all.
 ///
 /// @param stream  the whole sequence; not kept after the call.
 /// @return the light field, bit exact on every platform. A stream cut at a unit boundary gives a

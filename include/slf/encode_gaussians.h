@@ -34,9 +34,10 @@ struct EncodedGaussians {
 ///                  to 0.05 dB more; the nearest file where no step meets a target;
 ///                  grid_bits or voxel_size in place of the grid; what CodingParameters are made
 ///                  of; metadata, threads. Nothing else of it counts.
-/// @param origin  world place that positions are from
-/// @errors kInvalidInput: no splats, or none that shows. kInvalidArgument: a target out of
-///         range; those of pack(). The same bytes for any thread count.
+/// @param origin  world place that splats.origin is from
+/// @errors kInvalidInput: no splats, or none that shows; those of check_gaussians().
+///         kInvalidArgument: a setting out of its range, with its name; another coder than splats
+///         have; those of pack(). The same bytes for any thread count.
 Result<EncodedGaussians, InputError> encode_gaussians(Gaussians splats,
                                                       const EncoderSettings& settings,
                                                       const Vec3& origin = {0, 0, 0});

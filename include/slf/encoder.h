@@ -230,8 +230,9 @@ struct Encoded {
 /// From a capture to an .slf stream. With no cameras (a coloured cloud) the colours are coded as a
 /// light field of one component.
 /// @param cameras  the input cameras (split_cameras); empty only where the capture has none.
-/// @errors kInvalidArgument: no cameras of a capture that has some; those of the steps: voxelise,
-/// observe, check_cameras, fit_view_maps, pack. Deterministic for any thread count of one binary.
+/// @errors those of check_capture(). kInvalidArgument: no cameras of a capture that has some, or a
+/// surface that only photographs make; those of the steps: voxelise, observe, check_cameras,
+/// fit_view_maps, pack. Deterministic for any thread count of one binary.
 Result<Encoded, InputError> encode(const Capture& capture, std::span<const int> cameras,
                                    const EncoderSettings& settings, const Progress& progress = {});
 

@@ -100,9 +100,10 @@ using UnitOfFrame = std::function<std::vector<std::uint8_t>(const LightField& de
 /// Codes the frames of a stream, one after the other.
 class FrameEncoder {
  public:
-  /// @param parameters  of every frame: no base, one layer, octree and vector coder, no index.
-  ///                    A transform is that of the first frame of a group
-  /// @param group       frames from one that is not predicted to the next, 1 or more
+  /// @param parameters  of every frame: one layer, octree and vector coder. Frames have no base,
+  ///                    one slice and no index, whatever is said of these. A transform is that of
+  ///                    the first frame of a group
+  /// @param group       frames from one that is not predicted to the next; below 1 counts as 1
   /// @param first       number of the first frame; those that `group` divides begin groups
   FrameEncoder(const CodingParameters& parameters, int group = 16, std::uint32_t first = 0);
   FrameEncoder(FrameEncoder&&) noexcept;
@@ -143,7 +144,8 @@ struct FrameSettings {
 struct FramesOfPart {
   std::size_t first = 0, count = 0;
 };
-/// Whole groups; `count` is 0 where there are fewer groups than parts.
+/// Whole groups; `count` is 0 where there are fewer groups than parts, and of settings that are
+/// none (a group below 1, a part that is not one of `parts`).
 FramesOfPart frames_of_part(std::size_t frames, const FrameSettings& settings);
 
 /// What one frame is made of, loaded when it is its turn.

@@ -55,7 +55,7 @@ Result<GaussianFile, InputError> read_gaussians(const std::filesystem::path& fil
 /// an unknown axis counts as -y. glTF, SPZ 2 and 3, and SOG keep harmonics to degree 3; SOG changes
 /// the order of splats. The same bytes for the same splats and any thread count.
 /// @param gaussians  turned in place: who moves them in saves a copy
-/// @errors as splat_file; kInvalidInput: no splats
+/// @errors as splat_file; kInvalidInput: no splats; those of check_gaussians()
 /// O(P), of SOG O(P log P): some tens of microseconds a splat.
 Result<std::vector<std::uint8_t>, InputError> gaussian_file(Gaussians gaussians, SplatFormat format,
                                                             int threads = 0);

@@ -20,7 +20,8 @@ struct GaussianCloud;
 /// any thread count. Several threads may render at a time.
 class GaussianRenderer {
  public:
-  /// Precomputes covariances; keeps a reference to `gaussians`, which may be empty.
+  /// Precomputes covariances; keeps a reference to `gaussians`, which may be empty,
+  /// and are what check_gaussians() accepts.
   /// @param settings  `radius` has no meaning here
   /// O(splats).
   explicit GaussianRenderer(const Gaussians& gaussians, const RenderSettings& settings = {});

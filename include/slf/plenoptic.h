@@ -27,13 +27,14 @@ struct PlenopticProperty {
 struct PlenopticCloud {
   Grid grid;                     ///< of a file with whole coordinates: step 1, an origin of whole
                                  ///< numbers
-  std::vector<Voxel> positions;  ///< [P] Morton order, no duplicates
+  std::vector<Voxel> positions;  ///< [P] Morton order, no duplicates, of grid.bits
   std::size_t views = 0;         ///< N, 1 .. kMostViews
   bool own_colour = false;       ///< points have a colour beside those of views (red, green, blue)
   /// [P][F][3], F = num_colours(): the own colour, then views in the order of the file.
   std::vector<std::uint8_t> colours;
   std::vector<Vec3> view_positions;  ///< [N] world units of the file; or empty: not known
-  /// Those of the file that are positions and colours, in its order.
+  /// Those of the file that are positions and colours, in its order; or empty: a file has x, y, z,
+  /// then red, green, blue of points, then red_0, green_0, blue_0 and on.
   std::vector<PlenopticProperty> properties;
   std::string taken;       ///< for a person: which properties were taken for views
   std::size_t merged = 0;  ///< points that fell into an occupied voxel: colours are means
@@ -94,7 +95,8 @@ struct PlenopticEncoded {
 };
 
 /// @param cloud  move it in where it is not needed again: it is given up on the way
-/// @errors kInvalidArgument: a setting, names it; kLimitExceeded: most_memory is not enough; those
+/// @errors kInvalidArgument: a setting, names it. kInvalidInput: a cloud whose parts do not go
+///         together, names the part. kLimitExceeded: most_memory is not enough; those
 ///         of fit_view_maps and pack
 /// Memory: some 18 bytes for a function and point of view maps, 25 for a colour and point of
 /// planes, and 150 for a point.
@@ -107,7 +109,8 @@ bool is_plenoptic(const Metadata& metadata);
 
 /// The cloud of a decoded file: planes to bytes, with the corrections of an exact file; view maps
 /// as they look from the positions of views.
-/// @param stream  the whole file, or of a file of frames the bytes of this frame: for corrections
+/// @param stream  the whole file, or of a file of frames the bytes of this frame: for corrections,
+///                which nobody looks for where the field is a part
 /// @param warnings  or null; receives what is missing of an exact file
 /// @errors kInvalidInput: metadata or corrections that are damaged
 Result<PlenopticCloud, InputError> decode_plenoptic(std::span<const std::uint8_t> stream,
@@ -126,7 +129,7 @@ struct PlenopticQuality {
 };
 
 /// Compares the views of two clouds.
-/// @errors kInvalidInput: other points or another number of views
+/// @errors kInvalidInput: other points or another number of views; as encode_plenoptic()
 Result<PlenopticQuality, InputError> measure_plenoptic(const PlenopticCloud& decoded,
                                                        const PlenopticCloud& original);
 

@@ -39,7 +39,8 @@ struct SurfelCloud;
 /// the voxels), drawn as an antialiased ellipse; a first pass fixes depth, a second blends what
 /// lies within a surfel's thickness of it. A closed surface sampled at the pixel rate or denser has
 /// no holes. Distortion of the camera is honoured at surfel centres. Deterministic for any thread
-/// count. Several threads may render at a time.
+/// count. Several threads may render at a time. Gaussian splats (has_gaussians) are not discs:
+/// GaussianRenderer draws them as annex E.6 says.
 class Renderer {
  public:
   /// Precomputes normals and surfel radii; keeps a reference to `maps`. Of a grid that is no

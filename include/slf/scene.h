@@ -48,6 +48,7 @@ struct ScenePlan {
   Grid grid;                         ///< from the origin
   double spacing = 0;                ///< between points, world units
   std::string points_digest;         ///< SHA-256, hexadecimal, of all points on the grid
+  std::string photographs_digest;    ///< of calibrations, and of sizes of the photographs' files
   std::uint64_t planning_bytes = 0;  ///< what putting them there takes
   int base_levels = 0;
   std::vector<PlannedSlice> slices;

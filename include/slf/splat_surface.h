@@ -17,8 +17,8 @@ namespace slf {
 /// @param splats   in the world of the capture's cameras
 /// @return positions from capture.origin and outward normals; no colours
 /// @errors kInvalidInput: fewer than five cameras or 50 splats, or splats that show no surface;
-/// those of
-///         load_image. Time: cameras (pixels + splats). The same for any thread count.
+///         those of check_gaussians() and load_image. Time: cameras (pixels + splats). The same for
+///         any thread count.
 Result<PointCloud, InputError> surface_of_splats(const Gaussians& splats, const Capture& capture,
                                                  std::span<const int> cameras, int threads = 0);
 

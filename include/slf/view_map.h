@@ -36,7 +36,8 @@ class Harmonics;
 /// View maps ready to be looked at, in R, G, B: the weights of the R coded functions, which are
 /// looked up in a table over direction; or, for B-splines of order o that no transform codes, the
 /// coefficients of periodic B-splines of order o on a 2^s0 x 2^s1 grid, so that one radiance takes
-/// o * o fetches whatever K. Never changed once made: any number of threads may look up.
+/// o * o fetches whatever K. Never changed once made: any number of threads may look up. Of
+/// Gaussian splats (has_gaussians) they are the colours alone: slf/gaussian_renderer.h draws those.
 class ViewMaps {
  public:
   /// Converts once; O(P R), with a joint transform O(P K R).

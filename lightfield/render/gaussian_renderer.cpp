@@ -21,8 +21,10 @@ GaussianRenderer::GaussianRenderer(const Gaussians& gaussians, const RenderSetti
       cloud_(std::make_shared<const GaussianCloud>(gaussian_cloud(gaussians, settings.threads))) {}
 
 Rendering GaussianRenderer::render(const Camera& camera, const std::atomic<bool>* ended) const {
+  const Vec3& from = gaussians_.origin;
+  const Camera local = moved(camera, {-from[0], -from[1], -from[2]});
   const auto splats =
-      project_gaussians(gaussians_, *cloud_, camera, settings_.view_dependent, settings_.threads);
+      project_gaussians(gaussians_, *cloud_, local, settings_.view_dependent, settings_.threads);
   const GaussianTiles tiles = bin_gaussians(splats, camera.width, camera.height, settings_.threads);
   Rendering out = empty_rendering(camera, ended);
   parallel_ranges(tiles.size(), kTilesPerRange, settings_.threads,
@@ -35,8 +37,9 @@ Rendering GaussianRenderer::render(const Camera& camera, const std::atomic<bool>
 
 Camera GaussianRenderer::orbit(double turn, double elevation_degrees, int width, int height,
                                double fov_degrees) const {
-  return orbit_camera(cloud_->ball, gaussians_.up,
-                      {turn, elevation_degrees, width, height, fov_degrees});
+  return moved(orbit_camera(cloud_->ball, gaussians_.up,
+                            {turn, elevation_degrees, width, height, fov_degrees}),
+               gaussians_.origin);
 }
 
 }  // namespace slf

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lightfield/float_origin.h"
 #include "lightfield/harmonics.h"
 #include "lightfield/render/surfel_cloud.h"
 #include "lightfield/splats/splat_axes.h"
@@ -22,8 +23,6 @@ constexpr std::size_t kMost = 16;  // harmonics
 /// Curvature against squared error of the mean: what no direction shows stays flat, and
 /// coefficients small, since formats clamp them.
 constexpr double kSmoothness = 3e-5;
-/// Voxels from the world's origin beyond which 24-bit coordinates are more than 1/8 voxel off.
-constexpr double kFarthest = 1 << 19;
 
 /// Weighted least squares for the harmonics of one point after the other.
 class HarmonicsFit {
@@ -100,20 +99,6 @@ class HarmonicsFit {
   std::vector<std::array<double, kMost>> rows_;
 };
 
-/// The middle of the cloud, or 0 where floats hold world coordinates.
-Vec3 choose_origin(const Grid& grid, const std::vector<Vec3>& centres) {
-  Vec3 low = centres[0], high = centres[0];
-  double farthest = 0;
-  for (const Vec3& at : centres)
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], at[k]);
-      high[k] = std::max(high[k], at[k]);
-      farthest = std::max(farthest, std::abs(at[k]));
-    }
-  if (farthest <= kFarthest * grid.step) return {0, 0, 0};
-  return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
-}
-
 std::array<float, 3> floats(const Vec3& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
 
 /// All but the harmonics; normals in world axes.
@@ -124,7 +109,7 @@ SplatCloud discs(const ViewMaps& maps, const SplatSettings& settings) {
   splats.axes = axis_rows(maps.header(), settings.axes);
   splats.step = grid.step;
   splats.degree = settings.degree;
-  splats.origin = choose_origin(grid, surfels.centres);
+  splats.origin = float_origin(grid);
   for (std::size_t p = 0; p < surfels.size(); ++p) {
     Vec3 from = surfels.centres[p];
     for (std::size_t k = 0; k < 3; ++k) from[k] -= splats.origin[k];

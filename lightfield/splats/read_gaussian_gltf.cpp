@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/vec3.h"
 #include "capture/glb_accessor.h"
 #include "capture/gltf_transform.h"
 #include "capture/json_numbers.h"
@@ -197,7 +198,8 @@ class SplatScene {
                                 const JsonView& attributes) {
     auto part = std::move(collector).take("", "glTF");
     if (!part) return Done{};  // of a primitive without splats; the scene may have others
-    move_gaussians(part->gaussians, 0, place.rows, place.scale, place.offset);
+    move_gaussians(part->gaussians, place.rows, place.scale);
+    shift_gaussians(part->gaussians, place.offset);
     Gaussians& own = part->gaussians;
     for (std::size_t p = 0; p < own.size(); ++p)
       for (std::size_t k = 0; k < 3; ++k) {
@@ -223,19 +225,22 @@ class SplatScene {
     }
     GaussianCollector collector(degree, UpAxis::kPlusY, count);
     std::vector<float> harmonics;
+    const Vec3 origin = parts_.empty() ? Vec3{0, 0, 0} : parts_[0].gaussians.origin;
     for (const GaussianFile& part : parts_) {
       const Gaussians& from = part.gaussians;
+      const Vec3 shift = minus(from.origin, origin);
       const std::size_t row = 3 * from.num_harmonics();
       for (std::size_t p = 0; p < from.size(); ++p) {
         harmonics.assign(3 * std::size_t(degree + 1) * std::size_t(degree + 1), 0);
         std::copy_n(from.harmonics.begin() + static_cast<std::ptrdiff_t>(p * row), row,
                     harmonics.begin());
-        collector.add(
-            {from.positions[p], from.log_deviations[p], from.rotations[p], from.logits[p]},
-            harmonics);
+        collector.add({to_float(plus(to_double(from.positions[p]), shift)), from.log_deviations[p],
+                       from.rotations[p], from.logits[p]},
+                      harmonics);
       }
     }
     SLF_TRY(GaussianFile file, std::move(collector).take(name, "glTF"));
+    file.gaussians.origin = origin;
     file.left_out += left_out;
     file.mended += mended;
     return file;

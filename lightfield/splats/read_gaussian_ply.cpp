@@ -3,9 +3,12 @@
 // by channel (Kerbl et al. 2023, scene/gaussian_model.py). Variants: names that other trainers use,
 // colours of bytes in place of harmonics, two scales of a disc (Huang et al. 2024), and the filter
 // that Yu et al. 2024 (mip-splatting) keep beside size and opacity.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "base/vec3.h"
+#include "capture/exact_positions.h"
 #include "lightfield/splats/gaussian_readers.h"
 #include "lightfield/splats/ply_rows.h"
 
@@ -98,12 +101,31 @@ void widen(float filter, RawGaussian& raw) {
   raw.logit = logit_of(std::exp(lost) / (1 + std::exp(-raw.logit)));
 }
 
+Vec3 place_of(const Columns& from, std::span<const double> row) {
+  return {row[from.position[0]], row[from.position[1]], row[from.position[2]]};
+}
+
+/// From where floats keep the digits of a file of doubles.
+Result<Vec3, InputError> origin_of(const PlyRows& rows, const PlyElement& vertex,
+                                   const Columns& from) {
+  if (vertex.properties[from.position[0]].type != PlyType::kDouble) return Vec3{0, 0, 0};
+  std::vector<Vec3> places;
+  SLF_CHECK(rows.for_each(vertex, [&](std::span<const double> row) {
+    const Vec3 at = place_of(from, row);
+    if (std::all_of(at.begin(), at.end(), [](double x) { return std::isfinite(float(x)); }))
+      places.push_back(at);
+  }));
+  PointCloud cloud;
+  set_positions(places, cloud);
+  return cloud.origin;
+}
+
 /// One row.
-void take_row(const Columns& from, std::span<const double> row, std::vector<float>& harmonics,
-              GaussianCollector& to) {
+void take_row(const Columns& from, std::span<const double> row, const Vec3& origin,
+              std::vector<float>& harmonics, GaussianCollector& to) {
   const auto at = [&](std::size_t column) { return static_cast<float>(row[column]); };
   RawGaussian raw;
-  for (std::size_t k = 0; k < 3; ++k) raw.position[k] = at(from.position[k]);
+  raw.position = to_float(minus(place_of(from, row), origin));
   for (std::size_t k = 0; k < from.scales.size(); ++k) raw.log_deviations[k] = at(from.scales[k]);
   if (from.scales.size() == 2)
     raw.log_deviations[2] = std::min(raw.log_deviations[0], raw.log_deviations[1]) - kFlat;
@@ -140,13 +162,16 @@ Result<GaussianFile, InputError> read_gaussian_ply(const std::string& name, File
                           ": PLY without the properties of splats: x, y, z, f_dc_0 to 2, "
                           "opacity, scale_0 to 2, rot_0 to 3"};
   SLF_CHECK(find_rest(name, *vertex, *columns));
+  SLF_TRY(const Vec3 origin, origin_of(rows, *vertex, *columns));
   GaussianCollector collector(columns->degree, UpAxis::kMinusY,
                               static_cast<std::size_t>(vertex->count));
   std::vector<float> harmonics(columns->rest.size() + 3);
   SLF_CHECK(rows.for_each(*vertex, [&](std::span<const double> row) {
-    take_row(*columns, row, harmonics, collector);
+    take_row(*columns, row, origin, harmonics, collector);
   }));
-  return std::move(collector).take(name, "PLY");
+  SLF_TRY(GaussianFile file, std::move(collector).take(name, "PLY"));
+  file.gaussians.origin = origin;
+  return file;
 }
 
 }  // namespace slf

@@ -56,6 +56,7 @@ Result<std::vector<std::uint8_t>, InputError> splat_file(const SplatCloud& splat
 Result<std::vector<std::uint8_t>, InputError> gaussian_file(Gaussians gaussians, SplatFormat format,
                                                             int threads) {
   if (gaussians.size() == 0) return InputError{Errc::kInvalidInput, "has no splats"};
+  SLF_CHECK(check_gaussians(gaussians));
   const Gaussians turned = in_axes(std::move(gaussians), axes_of(format));
   return file_of(GaussianRows(turned), format, threads);
 }

@@ -94,6 +94,7 @@ class GaussianRows final : public SplatRows {
     return &splats_.harmonics[p * 3 * splats_.num_harmonics()];
   }
   float point_opacity(std::size_t p) const override { return opacity(p); }
+  Vec3 origin() const override { return splats_.origin; }
 
  private:
   const Gaussians& splats_;

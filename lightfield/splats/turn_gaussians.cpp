@@ -100,16 +100,15 @@ void HarmonicTurn::apply(float* coefficients) const {
   }
 }
 
-void move_gaussians(Gaussians& gaussians, std::size_t first, const AxisRows& rows, double scale,
-                    const Vec3& offset) {
+void move_gaussians(Gaussians& gaussians, const AxisRows& rows, double scale) {
   const HarmonicTurn turn(rows, gaussians.degree);
   const auto q = quaternion_of(without_mirror(rows));
   const auto log_scale = static_cast<float>(std::log(scale));
   const std::size_t row = 3 * gaussians.num_harmonics();
-  for (std::size_t p = first; p < gaussians.size(); ++p) {
+  for (std::size_t p = 0; p < gaussians.size(); ++p) {
     const Vec3 at = turned(rows, to_double(gaussians.positions[p]));
     for (std::size_t k = 0; k < 3; ++k) {
-      gaussians.positions[p][k] = static_cast<float>(scale * at[k] + offset[k]);
+      gaussians.positions[p][k] = static_cast<float>(scale * at[k]);
       gaussians.log_deviations[p][k] += log_scale;
     }
     gaussians.rotations[p] = product(q, gaussians.rotations[p]);
@@ -117,10 +116,29 @@ void move_gaussians(Gaussians& gaussians, std::size_t first, const AxisRows& row
   }
 }
 
+void shift_gaussians(Gaussians& gaussians, const Vec3& by) {
+  constexpr float kFar = 1 << 10;  // extents: 14 bits are left of a float's 24
+  float extent = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [low, high] =
+        std::minmax_element(gaussians.positions.begin(), gaussians.positions.end(),
+                            [k](const auto& a, const auto& b) { return a[k] < b[k]; });
+    if (low != gaussians.positions.end()) extent = std::max(extent, (*high)[k] - (*low)[k]);
+  }
+  const double most = std::max({std::abs(by[0]), std::abs(by[1]), std::abs(by[2])});
+  if (gaussians.origin != Vec3{0, 0, 0} || (extent > 0 && most > double{kFar * extent})) {
+    gaussians.origin = plus(gaussians.origin, by);
+    return;
+  }
+  for (auto& at : gaussians.positions) at = to_float(plus(to_double(at), by));
+}
+
 Gaussians in_axes(Gaussians gaussians, SplatAxes axes) {
   const AxisRows rows = rows_to(gaussians, axes);
-  if (rows != AxisRows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}})
-    move_gaussians(gaussians, 0, rows, 1, {0, 0, 0});
+  if (rows != AxisRows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}) {
+    move_gaussians(gaussians, rows, 1);
+    gaussians.origin = turned(rows, gaussians.origin);
+  }
   if (axes != SplatAxes::kWorld)
     gaussians.up = axes == SplatAxes::kYUp ? UpAxis::kPlusY : UpAxis::kMinusY;
   return gaussians;

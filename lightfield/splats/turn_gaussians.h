@@ -23,10 +23,12 @@ class HarmonicTurn {
   std::vector<std::vector<double>> matrices_;  // of degrees 1 .. , row by row
 };
 
-/// Turns, scales and moves splats from the one of number `first` on: v becomes
-/// scale * turned(rows, v) + offset. Rows may mirror, too.
-void move_gaussians(Gaussians& gaussians, std::size_t first, const AxisRows& rows, double scale,
-                    const Vec3& offset);
+/// Turns and scales splats about where they are from: v becomes scale * turned(rows, v). Rows may
+/// mirror, too.
+void move_gaussians(Gaussians& gaussians, const AxisRows& rows, double scale);
+
+/// Moves all: their positions, or the origin where it is not 0, or floats would lose digits.
+void shift_gaussians(Gaussians& gaussians, const Vec3& by);
 
 /// In the axes that a file wants: y up or y down. Splats without a known axis count as y down,
 /// which is the convention of files that do not say.

@@ -132,6 +132,11 @@ TEST_F(FrameInputsTest, CamerasOfNumberedImagesStandForTheirFolder) {
             listed(list_frames(root_ / "moving")));
   capture("wide", {{"%05d.png", 20}});
   EXPECT_EQ(refusal(root_ / "wide"), "wide: no file has a name as %05d.png");
+  capture("percent", {{"100%d.png", 20}, {"one.png", 20}});  // a name like any other
+  for (const char* name : {"100%d.png", "one.png"})
+    ASSERT_TRUE(
+        write_png(root_ / "percent" / name, Image{20, 20, 3, std::vector<std::uint8_t>(1200)}));
+  EXPECT_FALSE(holds_frames(root_ / "percent"));
   capture("still", {{"one.png", 20}});
   EXPECT_FALSE(holds_frames(root_ / "still/cameras.json"));
 }

@@ -34,6 +34,15 @@ TEST(FindStep, ReachesAGoalOnAStaircase) {
   EXPECT_TRUE(found->reached);
 }
 
+TEST(FindStep, GoesOnWhereFineStepsAreExact) {
+  const auto found = find_step(16, {50, 50.05}, [](double q) -> Measured {
+    EXPECT_TRUE(q >= kLeastQ && q <= kMostQ) << q;
+    return q < 20 ? INFINITY : 70 - 10 * std::log10(q);
+  });
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->reached);
+}
+
 TEST(FindStep, BeyondTheRangeOfStepsTheNearestIsSaid) {
   const auto small = find_step(16, {99, 100}, [](double) -> Measured { return 5000.0; });
   ASSERT_TRUE(small);

@@ -45,7 +45,7 @@ Gaussians ball(std::size_t count, int degree = 1, unsigned seed = 5) {
 
 Gaussians turned_about_z(Gaussians splats, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
-  move_gaussians(splats, 0, {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}}, 1, {0, 0, 0});
+  move_gaussians(splats, {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}}, 1);
   return splats;
 }
 

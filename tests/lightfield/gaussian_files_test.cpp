@@ -132,7 +132,7 @@ TEST(GaussianFiles, TurnsOfAnyAngleKeepWhatIsSeen) {
   const AxisRows rows{{{c, -s, 0}, {0.6 * s, 0.6 * c, -0.8}, {0.8 * s, 0.8 * c, 0.6}}};
   const Gaussians before = random_gaussians(5, 4);
   Gaussians after = before;
-  move_gaussians(after, 0, rows, 1, {0, 0, 0});
+  move_gaussians(after, rows, 1);
   for (const Vec3& v : {Vec3{0, 0, 1}, {0.6, 0.8, 0}, {-0.48, 0.6, 0.64}})
     for (std::size_t p = 0; p < 5; ++p)
       EXPECT_NEAR(colour(after, p, turned(rows, v)), colour(before, p, v), 1e-5);

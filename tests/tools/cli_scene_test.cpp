@@ -108,6 +108,27 @@ TEST_F(SceneTest, ADirectoryWithoutItsPointsIsFilledFromTheCapture) {
   EXPECT_EQ(read("there.slf"), read("here.slf"));
 }
 
+TEST_F(SceneTest, AnotherCaptureThanThatOfThePlanIsRefused) {
+  ASSERT_EQ(plan().code, 0);
+  ASSERT_EQ(part("1/2", "a.slf").code, 0);
+  const auto cameras = parsed(read("street/cameras.json"));
+  const std::string first = cameras["splits"]["dense"][0].get<std::string>();
+  const std::string photograph = read("street/" + first);
+  const auto refused = [&] {
+    expect_failure(part("2/2", "b.slf"), 4, "street", "not those of the plan");
+    EXPECT_FALSE(exists("b.slf"));
+  };
+  write("street/" + first, photograph + " ");
+  refused();
+  write("street/" + first, photograph);
+  auto moved = cameras;
+  moved["cameras"][0]["t"][0] = moved["cameras"][0]["t"][0].get<double>() + 0.01;
+  write("street/cameras.json", moved.dump());
+  refused();
+  write("street/cameras.json", cameras.dump());
+  EXPECT_EQ(part("2/2", "b.slf").code, 0);
+}
+
 TEST_F(SceneTest, PhotographsAreReadNoLargerThanPointsNeed) {
   ASSERT_EQ(slf("synth terrace -o large --houses 1 --points 15000 --cameras 6 --size 480x360 "
                 "--quiet")

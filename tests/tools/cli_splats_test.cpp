@@ -115,6 +115,10 @@ TEST_F(SplatFileTest, IsCodedDrawnJudgedAndWrittenAgain) {
     EXPECT_NE(read("x.html").find("data:image/jpeg;base64,"), std::string::npos);
   }
   expect_failure(slf("encode x.ply -o w.slf --degree 4"), 2, "x.ply", "--degree");
+  expect_failure(slf("export x.ply -o y.ply --mean"), 2, "x.ply", "--mean");
+  expect_failure(slf("eval x.ply . --frame 2"), 2, "x.ply", "--frame");
+  expect_failure(slf("render x.slf --sheet --orbit 1000 --size 800x800 -o s.png"), 2, "render",
+                 "35200 x 18400");
   expect_failure(slf("encode x.ply -o w.slf --points x.ply"), 2, "x.ply", "--points");
 }
 
@@ -149,6 +153,11 @@ TEST_F(SplatFileTest, CloudsComeFromStandardInputAndNothingElseDoes) {
   ASSERT_EQ(slf("encode - -o c.slf --quiet <c.ply && '" SLF_PROGRAM "' decode c.slf -o b.ply").code,
             0);
   EXPECT_EQ(read("b.ply"), read("a.ply"));
+  for (const char* opened : {"/dev/stdin", "/dev/fd/3 3<c.ply"}) {
+    ASSERT_EQ(slf("encode " + std::string(opened) + " -o d.slf --quiet <c.ply").code, 0);
+    ASSERT_EQ(slf("decode d.slf -o d.ply").code, 0);
+    EXPECT_EQ(read("d.ply"), read("a.ply")) << opened;
+  }
   std::string with_nan = read("c.ply");
   with_nan.replace(with_nan.find("5 5 5"), 5, "5 nan 5");
   write("nan.ply", with_nan);
