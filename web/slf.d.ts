@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surface light fields decoded in WebAssembly. No globals, no dependency; every function throws SlfError.
+// Types of slf.js: surface light fields decoded in WebAssembly, and what the other modules take and give. No globals, no
+// dependency; every function throws SlfError.
 
 /** Code of an error: as in include/slf/slf.h without SLF_, and three of the page: network, its own end, its policy. */
 export type SlfCode =
@@ -181,7 +182,8 @@ export class SlfField {
   release(): void;
 }
 
-type Bytes = ArrayBufferLike | ArrayBufferView;
+/** An ArrayBuffer, a SharedArrayBuffer, or a view of one. */
+export type SlfBytes = ArrayBufferLike | ArrayBufferView;
 /** Where a decoder comes from: an address, a response, bytes or a compiled module, or a promise of one of them. */
 export type WasmSource = WasmValue | Promise<WasmValue> | undefined;
 type WasmValue = string | URL | Response | ArrayBuffer | ArrayBufferView | WebAssembly.Module;
@@ -201,9 +203,9 @@ export class SlfDecoder {
   static create(options?: SlfParts): Promise<SlfDecoder>;
   /** May be posted to workers. */
   readonly module: WebAssembly.Module;
-  info(bytes: Bytes): SlfInfo;
-  preflight(bytes: Bytes, options?: SlfOptions): SlfEstimate;
-  decode(bytes: Bytes, options?: SlfOptions): SlfField;
+  info(bytes: SlfBytes): SlfInfo;
+  preflight(bytes: SlfBytes, options?: SlfOptions): SlfEstimate;
+  decode(bytes: SlfBytes, options?: SlfOptions): SlfField;
   /** Frames of a light field that moves, whose bytes are pushed as they come. Options are those of every frame; maxBytes has to be 0. */
   frames(options?: SlfOptions): SlfFrames;
   /** Lets go of memory that is kept for the next decode: it would be after five seconds. */
@@ -252,7 +254,7 @@ export class SlfFrames {
    * Copies the bytes that follow those of the call before. NOT_SLF and errors of the first frame's headers, and of units of a
    * light field that does not move, are for good.
    */
-  push(bytes: Bytes): void;
+  push(bytes: SlfBytes): void;
   /** No bytes follow: a frame that was cut short is listed, and the one of a light field that does not move. */
   finish(): void;
   /** Whether the bytes of a frame are here. */
@@ -279,118 +281,5 @@ export interface SlfOpenOptions {
   stallMs?: number;
 }
 
-/** A file on a server, read in parts by its index; all of it where the server ignores ranges. From slf_stream.js. */
-export class SlfStream {
-  private constructor();
-  static open(url: string | URL, options?: SlfOpenOptions & {
-    decoder?: SlfDecoder; wasm?: WasmSource; fetch?: typeof fetch; onProgress?: (received: number, all: number) => void;
-  }): Promise<SlfStream>;
-  readonly info: SlfInfo;
-  /** Of the whole file, and received so far. */
-  readonly bytes: number;
-  readonly received: number;
-  /** The server gives parts. */
-  readonly ranged: boolean;
-  preflight(options?: SlfOptions): SlfEstimate;
-  /** Reads what decode(options) needs and is not here yet; after the reads that were asked for before. */
-  read(options?: SlfOptions, reading?: SlfReading): Promise<void>;
-  decode(options?: SlfOptions, reading?: SlfReading): Promise<SlfField>;
-}
-
-/** An address, a file, or bytes. */
-export type SlfFrameSource = string | URL | Blob | Bytes;
-
-export interface SlfFramesOptions extends SlfOpenOptions, SlfOptions {
-  /** Bytes of the stream beyond which groups that are behind are dropped; they are fetched again, by ranges [2^28]. */
-  keepBytes?: number;
-}
-
-/** A frame, and its light field or what is wrong with it. */
-export type SlfPlayed<Field> = SlfFrame & ({ field: Field; error: null } | { field: null; error: SlfError });
-
-/** Frames of a source, read as far as they are asked for. From slf_frame_stream.js. */
-export class SlfFrameStream {
-  private constructor();
-  /** Resolves when the first frame is here. */
-  static open(source: SlfFrameSource, options?: SlfFramesOptions & {
-    decoder?: SlfDecoder; wasm?: WasmSource; fetch?: typeof fetch;
-  }): Promise<SlfFrameStream>;
-  readonly list: readonly SlfFrame[];
-  /** The list is complete. */
-  readonly ended: boolean;
-  readonly heldBytes: number;
-  /** Bytes that have come, those that came again too. */
-  readonly received: number;
-  info(place?: number): SlfInfo;
-  /** As that of SlfFrames, of a frame that is here. */
-  preflight(place: number, options?: SlfOptions): SlfEstimate;
-  /** Levels, groups, limits of frames that are decoded from here on. */
-  setOptions(options?: SlfOptions): void;
-  /** Reads until a frame is here, with its group. false: the stream ends before it. */
-  arrive(place: number): Promise<boolean>;
-  /** Reads a piece of what comes. false: the list is complete, or half of keepBytes is held. */
-  readAhead(): Promise<boolean>;
-  /** To be released. */
-  decode(place: number): Promise<SlfField>;
-  /** Frames from a place on, in order. A field lives until the next frame is asked for. */
-  play(place?: number): AsyncGenerator<SlfPlayed<SlfField>, void>;
-  [Symbol.asyncIterator](): AsyncGenerator<SlfPlayed<SlfField>, void>;
-  close(): Promise<void>;
-}
-
-/** The frames of a source in order; leaving the loop ends the download. From slf_frame_stream.js. */
-export function frames(source: SlfFrameSource, options?: SlfFramesOptions & {
-  decoder?: SlfDecoder; wasm?: WasmSource; fetch?: typeof fetch;
-}): AsyncGenerator<SlfPlayed<SlfField>, void>;
-
-export interface SlfReading {
-  /** Bytes so far, and all of this call. */
-  onRead?: (bytes: number, all: number) => void;
-  signal?: AbortSignal;
-}
-
-type SlfArray = 'positions' | 'values' | 'octahedral' | 'weights' | 'meanColours' | 'normals' | 'centres' | 'radii'
-  | 'areas' | 'mirrorNormals' | 'covariances' | 'opacities';
-
-/** A field as data, from a worker: the arrays that were asked for. */
-export type SlfPlainField =
-  Pick<SlfField, 'points' | 'components' | 'functions' | 'partial' | 'grid' | 'directions' | 'transfer' | 'up' | 'rightHanded'
-    | 'hasBasis' | 'hasNormals' | 'hasSplats' | 'gamma' | 'kernel' | 'info'>
-  & Partial<Pick<SlfField, 'positions' | 'values' | 'octahedral' | 'normals' | 'centres' | 'radii' | 'areas' | 'mirrorNormals'
-    | 'covariances' | 'opacities'>>
-  & { weights?: Float32Array | null; meanColours?: Uint8Array | null; functionTable?: SlfFunctionTable };
-
-export interface SlfWanted {
-  /** Default: all. */
-  arrays?: SlfArray[];
-  functionTable?: { side?: number };
-  /** ABORTED at once; a decode that goes on is not interrupted, its result is dropped. */
-  signal?: AbortSignal;
-}
-
 /** The package's decoder, compiled once a page. */
 export function decoderModule(options?: SlfParts): Promise<WebAssembly.Module>;
-
-/** Decoding in a worker of its own, which runs slf_worker_service.js. From slf_worker.js. */
-export class SlfWorker {
-  private constructor();
-  static create(options?: SlfParts & { worker?: Worker | (() => Worker | Promise<Worker>) }): Promise<SlfWorker>;
-  info(bytes: Bytes): Promise<SlfInfo>;
-  decode(bytes: Bytes, options?: Omit<SlfOptions, 'onProgress'>, wanted?: SlfWanted & { transfer?: boolean }): Promise<SlfPlainField>;
-  open(url: string | URL, options?: SlfOpenOptions): Promise<{
-    info: SlfInfo; bytes: number; ranged: boolean; received: number;
-    decode(options?: Omit<SlfOptions, 'onProgress'>, wanted?: SlfWanted & SlfReading): Promise<SlfPlainField>;
-    close(): Promise<void>;
-  }>;
-  /** A stream of several frames; frame() gives null behind the last. */
-  openFrames(source: SlfFrameSource, options?: Omit<SlfFramesOptions, 'onProgress'>): Promise<{
-    info: SlfInfo;
-    frame(place: number, wanted?: SlfWanted): Promise<SlfPlayed<SlfPlainField> | null>;
-    close(): Promise<void>;
-  }>;
-  /** Its frames in order; the next is decoded meanwhile. */
-  frames(source: SlfFrameSource, options?: Omit<SlfFramesOptions, 'onProgress'>, wanted?: SlfWanted):
-    AsyncGenerator<SlfPlayed<SlfPlainField>, void>;
-  /** ABORTED for every call that waits, and for every later one. */
-  terminate(): void;
-}

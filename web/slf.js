@@ -144,4 +144,4 @@ export class SlfDecoder {
 
 export { SlfError } from './slf_error.js';
 export { decoderModule } from './slf_instance.js';
-export { SlfField, SlfFrames, readInfo, preflight, setOptions };
+export { SlfField, SlfFrames };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files on a server, read in parts: the beginning with the index, then what is asked for.
-import { preflight, readInfo, setOptions, SlfError, SlfDecoder } from './slf.js';
+import { SlfError, SlfDecoder } from './slf.js';
+import { preflight, readInfo, setOptions } from './slf_headers.js';
 import { contentRange, network, Request } from './slf_request.js';
 
 const FIRST_BYTES = 1 << 16;

@@ -31,7 +31,6 @@ ANY_WIDTH = re.compile(r'.*\.(?:html|css)$|docs/(?:decisions|experiments)/|docs/
 # Why a file may be longer.
 FILES = {
     'spec/decoder.py': 'one file on purpose: it is read beside the text, clause by clause',
-    'web/slf.d.ts': 'the types of one module, which is one file to who installs it',
     'include/slf/slf.h': 'the interface in C is one header: whoever binds another language reads it alone',
 }
 # Why a function may be longer: "file: function".

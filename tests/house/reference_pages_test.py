@@ -28,7 +28,7 @@ class ReferencePagesTest(unittest.TestCase):
 
     def test_every_export_is_there_with_all_its_members(self):
         page = reference_pages.javascript_page(ROOT)
-        for module, file in reference_pages.DECLARATIONS.items():
+        for module, file in [(module, file) for module, files in reference_pages.DECLARATIONS.items() for file in files]:
             text = (ROOT / file).read_text(encoding='utf-8')
             for name in re.findall(r'^export (?:class|interface|type|function|const) (\w+)', text, re.M):
                 self.assertIn(f'\n### {name}\n', page, module)
@@ -37,6 +37,8 @@ class ReferencePagesTest(unittest.TestCase):
             self.assertIn(f'* `{member}`', page)
         self.assertNotIn('/**', page)
         self.assertNotIn('private', page)
+        self.assertIn('\n## slf-decoder/worker\n', page)
+        self.assertEqual(1, page.count('\n### SlfInfo\n'))
 
 
 if __name__ == '__main__':

@@ -3,12 +3,13 @@
 import ast
 import re
 
-DECLARATIONS = {  # of the npm package: what a page imports, and the file that says its types
-    'slf-decoder': 'web/slf.d.ts',
-    'slf-decoder/inline': 'web/inline.d.ts',
-    'slf-decoder/viewer/slf_viewer.js': 'web/viewer/slf_viewer.d.ts',
-    'slf-decoder/viewer/SLFLoader.js': 'web/viewer/SLFLoader.d.ts',
-    'slf-decoder/viewer/surface_light_field.js': 'web/viewer/surface_light_field.d.ts',
+DECLARATIONS = {  # of the npm package: what a page imports, and the files that say its types
+    'slf-decoder': ['web/slf.d.ts', 'web/slf_stream.d.ts', 'web/slf_frame_stream.d.ts'],
+    'slf-decoder/worker': ['web/slf_worker.d.ts'],
+    'slf-decoder/inline': ['web/inline.d.ts'],
+    'slf-decoder/viewer/slf_viewer.js': ['web/viewer/slf_viewer.d.ts'],
+    'slf-decoder/viewer/SLFLoader.js': ['web/viewer/SLFLoader.d.ts'],
+    'slf-decoder/viewer/surface_light_field.js': ['web/viewer/surface_light_field.d.ts'],
 }
 
 
@@ -134,8 +135,10 @@ def declaration(comment, text):
 
 def javascript_page(root):
     out = ['# JavaScript', 'What the package `slf-decoder` exports, by the module that a page imports it from.']
-    for module, file in DECLARATIONS.items():
+    for module, files in DECLARATIONS.items():
         out.append(f'## {module}')
-        text = (root / file).read_text(encoding='utf-8')
-        out += [declaration(comment, statement) for comment, statement in statements(text) if statement.startswith('export ')]
+        for file in files:
+            text = (root / file).read_text(encoding='utf-8')
+            out += [declaration(comment, statement) for comment, statement in statements(text)
+                    if statement.startswith('export ') and not statement.startswith('export type {')]  # which is said elsewhere
     return '\n\n'.join(part for part in out if part) + '\n'

@@ -2,7 +2,8 @@
 // The module by itself: options, arrays, memory, errors.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { SlfDecoder, SlfError, readInfo } from '../../slf_node.js';
+import { readInfo } from '../../slf_headers.js';
+import { SlfDecoder, SlfError } from '../../slf_node.js';
 import { caseOf, cases } from './support.js';
 
 const decoder = await SlfDecoder.create();

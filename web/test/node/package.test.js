@@ -12,6 +12,7 @@ import { caseOf, suite } from './support.js';
 const web = fileURLToPath(new URL('../../', import.meta.url));
 const skip = spawnSync('npm', ['--version']).status !== 0 ? 'there is no npm (tools/setup.sh web)'
   : !existsSync(join(web, 'made/viewer_markup.js')) && 'there is no made/ (web/build.sh says why)';
+const withoutPackages = !existsSync(join(web, 'node_modules/typescript')) && 'there is no typescript: npm ci in web/';
 const place = mkdtempSync(join(tmpdir(), 'slf-package-'));
 const installed = join(place, 'node_modules/slf-decoder');
 after(() => rmSync(place, { recursive: true }));
@@ -22,6 +23,8 @@ if (!skip) {
   mkdirSync(installed, { recursive: true });
   execFileSync('tar', ['-xzf', join(place, archive), '-C', installed, '--strip-components', '1']);
 }
+
+const isOfNode = (name) => name.startsWith('slf_node');
 
 test('a package says what it is and under which licence', { skip }, () => {
   assert.deepEqual(readFileSync(join(installed, 'LICENSE')), readFileSync(join(web, '../LICENSE')));
@@ -56,8 +59,48 @@ test('a package decodes', { skip }, () => {
 test('no file that a browser is given names node', { skip }, () => {
   const { exports } = JSON.parse(readFileSync(join(installed, 'package.json'), 'utf8'));
   for (const name of readdirSync(installed, { recursive: true }))
-    if (name.endsWith('.js') && name !== 'slf_node.js')
+    if (name.endsWith('.js') && !isOfNode(name))
       assert.doesNotMatch(readFileSync(join(installed, name), 'utf8'), /['"`]node:/, name);
   for (const [entry, { node, default: browser }] of Object.entries(exports))
-    if (node) assert.ok(node === './slf_node.js' && browser !== node, entry);
+    if (node) assert.ok(isOfNode(node.slice(2)) && !isOfNode(browser.slice(2)), entry);
+});
+
+/** {import: names} that run() finds, of each module that package.json has types of. */
+async function namesBy(run) {
+  const { exports } = JSON.parse(readFileSync(join(installed, 'package.json'), 'utf8'));
+  const entries = Object.keys(exports).filter((entry) => exports[entry].types).map((entry) => join('slf-decoder', entry));
+  return Object.fromEntries(await Promise.all(entries.map(async (entry) => [entry, (await run(entry)).sort()])));
+}
+
+/** What a bundler of pages finds. */
+async function namesOfBrowser(entry) {
+  const { build } = await import('esbuild');
+  const { metafile } = await build({ stdin: { contents: `export * from '${entry}'`, resolveDir: place }, bundle: true,
+    write: false, metafile: true, format: 'esm', platform: 'browser', external: ['*.wasm'], logLevel: 'error', outdir: place });
+  return Object.values(metafile.outputs).find((output) => output.entryPoint).exports;
+}
+
+function namesOfNode(entry) {
+  const script = `import * as all from '${entry}'; console.log(JSON.stringify(Object.keys(all)))`;
+  return JSON.parse(execFileSync(process.execPath, ['--input-type=module', '-e', script], { cwd: place }));
+}
+
+test('a browser and node are given the same names by each import', { skip: skip || withoutPackages }, async () => {
+  const inNode = await namesBy(namesOfNode);
+  assert.deepEqual(await namesBy(namesOfBrowser), inNode);
+  assert.ok(Object.keys(inNode).length >= 5);
+});
+
+test('the types of each import have the names that it gives, and no others', { skip: skip || withoutPackages }, async () => {
+  // An object of these keys and no others is what the compiler is asked for.
+  const given = Object.entries(await namesBy(namesOfNode)).map(([entry, names], i) => `
+    import * as all${i} from '${entry}';
+    export const names${i}: { [Name in keyof typeof all${i}]: 1 } = { ${names.map((name) => `${name}: 1`).join(', ')} };`);
+  writeFileSync(join(place, 'names.mts'), given.join('\n'));
+  for (const [module, resolution] of [['nodenext', 'nodenext'], ['esnext', 'bundler']]) {
+    const { status, stdout } = spawnSync(process.execPath, [join(web, 'node_modules/typescript/bin/tsc'), '--ignoreConfig', '--strict',
+      '--noEmit', '--target', 'es2022', '--types', '', '--module', module, '--moduleResolution', resolution, 'names.mts'],
+    { cwd: place, encoding: 'utf8' });
+    assert.equal(status, 0, stdout);
+  }
 });

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled and not run: what the documentation shows, and what must not compile.
 import { Box3, PerspectiveCamera, Raycaster, Scene, WebGLRenderer } from 'three';
-import { SlfDecoder, SlfError } from 'slf-decoder';
+import { SlfDecoder, SlfError, SlfStream } from 'slf-decoder';
 import { SlfFrameStream, frames } from 'slf-decoder/frames';
+import { SlfWorker, type SlfInfo } from 'slf-decoder/worker';
 import { SLFLoader } from 'slf-decoder/viewer/SLFLoader.js';
 import { SurfaceLightField, type LightFieldIntersection } from 'slf-decoder/viewer/surface_light_field.js';
 import { Viewer } from 'slf-decoder/viewer/viewer.js';
@@ -35,6 +36,13 @@ export async function decoded(bytes: Uint8Array) {
   } catch (error) {
     return error instanceof SlfError ? error.code : undefined;
   }
+}
+
+export async function read(url: string, bytes: Uint8Array) {
+  const stream = await SlfStream.open(url), worker = await SlfWorker.create();
+  const field = await worker.decode(bytes, { levels: 8 }, { arrays: ['positions', 'weights'] });
+  const info: SlfInfo = field.info;
+  return [info.points, field.weights?.length, stream.preflight().requests];
 }
 
 export async function played(url: string, canvas: { show(points: Float32Array): void }) {
