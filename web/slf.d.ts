@@ -2,7 +2,10 @@
 // Types of slf.js: surface light fields decoded in WebAssembly, and what the other modules take and give. No globals, no
 // dependency; every function throws SlfError.
 
-/** Code of an error: as in include/slf/slf.h without SLF_, and three of the page: network, its own end, its policy. */
+/**
+ * Code of an error: as in include/slf/slf.h without SLF_, and three of the page: network, its own end, its policy.
+ * INVALID_ARGUMENT: what the caller gave, whatever the file holds; `element` is the argument's name.
+ */
 export type SlfCode =
   | 'NOT_SLF' | 'TRUNCATED' | 'CHECKSUM' | 'OUT_OF_RANGE' | 'RESERVED' | 'UNSUPPORTED' | 'LIMIT_EXCEEDED'
   | 'INVALID_ARGUMENT' | 'OUT_OF_MEMORY' | 'CANCELLED' | 'READ_FAILED' | 'INTERNAL' | 'NETWORK' | 'ABORTED'
@@ -79,9 +82,9 @@ export interface SlfOptions {
   layers?: number;
   /** Only units that end within the first maxBytes; 0: all. */
   maxBytes?: number;
-  /** Only points whose voxel of the kept levels meets the box; voxels of the whole grid, both corners included. */
+  /** Only points whose voxel of the kept levels meets the box: voxels of the whole grid, both corners included, low <= high. */
   region?: { low: ArrayLike<number>; high: ArrayLike<number> };
-  /** Refused beyond: LIMIT_EXCEEDED, before anything that large is allocated. */
+  /** Refused beyond: LIMIT_EXCEEDED, before anything that large is allocated. 0: the decoder's own limit; Infinity: none. */
   maxPoints?: number;
   /** The same of the memory that preflight() estimates, bytes. */
   maxMemory?: number;
@@ -257,9 +260,9 @@ export class SlfFrames {
   push(bytes: SlfBytes): void;
   /** No bytes follow: a frame that was cut short is listed, and the one of a light field that does not move. */
   finish(): void;
-  /** Whether the bytes of a frame are here. */
+  /** Whether the bytes of a frame are here; false where it has not arrived. */
   holds(place: number): boolean;
-  /** The frame that the group of this one begins with. */
+  /** The frame that the group of this one begins with, of one that has arrived. */
   groupOf(place: number): number;
   /** Headers of the group of a frame. */
   info(place?: number): SlfInfo;

@@ -7,9 +7,10 @@
 //     field.release();
 //
 // Types and documentation: slf.d.ts.
+import { bytesOf, checkedOptions } from './slf_arguments.js';
 import { SlfField } from './slf_field.js';
 import { SlfFrames } from './slf_frames.js';
-import { bytesOf, preflight, readCost, readInfo, setOptions } from './slf_headers.js';
+import { preflight, readCost, readInfo, setOptions } from './slf_headers.js';
 import { Instance, compile } from './slf_instance.js';
 
 /**
@@ -34,25 +35,28 @@ export class SlfDecoder {
   }
 
   preflight(bytes, options) {
+    const checked = checkedOptions(options);
     return this.#withStream(bytes, (instance, stream) => {
-      setOptions(instance, options);
+      setOptions(instance, checked);
       return preflight(instance, stream);
     });
   }
 
   decode(bytes, options) {
-    const source = bytesOf(bytes), instance = this.take();
-    return this.#field(instance, () => instance.wasm.slfw_open(instance.put(source), source.byteLength), options);
+    const source = bytesOf(bytes);
+    return this.#field((instance) => instance.wasm.slfw_open(instance.put(source), source.byteLength), options);
   }
 
   /** Of a stream that is read in parts. readAt(offset, bytes): Uint8Array, or null. */
   decodeParts(size, readAt, options) {
-    const instance = this.take();
-    return this.#field(instance, () => this.openParts(instance, size, readAt), options);
+    return this.#field((instance) => this.openParts(instance, size, readAt), options);
   }
 
   /** A reader of a stream of several frames, whose bytes are pushed as they come. */
-  frames(options) { return new SlfFrames(this.take(), options, (used) => this.give(used)); }
+  frames(options) {
+    const checked = checkedOptions(options);
+    return new SlfFrames(this.take(), checked, (used) => this.give(used));
+  }
 
   /** Calls use(instance, stream) with a stream that is read in parts. */
   withParts(size, readAt, use) {
@@ -104,11 +108,13 @@ export class SlfDecoder {
     this.#idle = null;
   }
 
-  #field(instance, open, options) {
+  /** open(instance) */
+  #field(open, options) {
+    const checked = checkedOptions(options), instance = this.take();
     try {
       const { field, info } = instance.call((w) => {
-        setOptions(instance, options);
-        const stream = open();
+        setOptions(instance, checked);
+        const stream = open(instance);
         if (stream === 0) instance.fail();
         const about = readInfo(instance, stream);
         const decoded = w.slfw_decode(stream);

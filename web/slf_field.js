@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A decoded light field: arrays, colours, what a shader needs.
-import { SlfError } from './slf_error.js';
+import { invalid, over } from './slf_arguments.js';
 import { DIRECTIONS, TRANSFERS } from './slf_headers.js';
 
 const CHUNK_BYTES = 1 << 20; // of arrays on their way out
@@ -10,8 +10,6 @@ const MOST_SIDE = 1024; // of a function table
 const POSITIONS = 0, COMPONENTS = 1, OCTAHEDRAL = 2, WEIGHTS = 3, MEANS = 4, MIRROR_NORMALS = 5,
   DISC_NORMALS = 6, DISC_CENTRES = 7, DISC_RADII = 8, DISC_AREAS = 9,
   SPLAT_COVARIANCES = 10, SPLAT_OPACITIES = 11;
-
-function invalid(what) { return new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${what}`); }
 
 /** A decoded light field in an instance of its own, until release(). Arrays handed out are copies. */
 export class SlfField {
@@ -66,13 +64,13 @@ export class SlfField {
   meanColours() { return this.#read(MEANS, Uint8Array, 3); }
   weights(out, first = 0, count = this.points - first) {
     if (!(Number.isInteger(first) && Number.isInteger(count) && first >= 0 && count >= 0 && first + count <= this.points))
-      throw invalid(`points from 0 to ${this.points}`);
+      throw invalid('first and count', `must be whole numbers, of points from 0 to ${this.points}`);
     return this.#read(WEIGHTS, Float32Array, 3 * this.functions, out, first, count);
   }
 
   functionTable({ side = 65 } = {}) {
     if (!Number.isInteger(side) || side < 2 || side > MOST_SIDE)
-      throw invalid(`side must be a whole number, 2 to ${MOST_SIDE}`);
+      throw invalid('side', `must be a whole number, 2 to ${MOST_SIDE}`);
     const layers = Math.ceil(this.functions / 4), floats = layers * 24 * side * side;
     return this.#call((w, instance) => {
       const at = instance.alloc(4 * floats);
@@ -93,9 +91,9 @@ export class SlfField {
   }
 
   radiance(points, directions) {
-    if (directions.length !== 3 * points.length) throw invalid('three numbers of a direction for every point');
+    if (!(directions?.length === 3 * points?.length)) throw invalid('directions', 'must be three numbers for every one of points');
     const indices = Uint32Array.from(points);
-    if (!indices.every((index, i) => index === points[i])) throw invalid('points must be whole numbers, 0 or more');
+    if (!indices.every((index, i) => index === points[i])) throw invalid('points', `must be whole numbers, 0 to ${this.points - 1}`);
     return this.#call((w, instance) => {
       const from = instance.put(new Uint8Array(indices.buffer));
       const along = instance.put(new Uint8Array(Float32Array.from(directions).buffer));
@@ -116,7 +114,7 @@ export class SlfField {
   /** body(w, instance) */
   #call(body) {
     const instance = this.#instance;
-    if (instance === null) throw invalid('the field was released');
+    if (instance === null) throw over('the field was released');
     return instance.call((w) => body(w, instance));
   }
 
@@ -144,7 +142,7 @@ export class SlfField {
   #read(what, Type, width, out, from = 0, count = this.points) {
     out ??= new Type(count * width);
     if (!(out instanceof Type) || out.length < count * width)
-      throw invalid(`a ${Type.name} of ${count * width} or more`);
+      throw invalid('out', `must be a ${Type.name} of ${count * width} numbers or more`);
     this.#chunks(width * Type.BYTES_PER_ELEMENT, (w, first, some, at) => {
       this.#fetch(w, what, first, some, at);
       out.set(new Type(w.memory.buffer, at, some * width), (first - from) * width);

@@ -3,7 +3,7 @@
 //
 //     for await (const frame of frames('walk.slf')) show(frame.time, frame.field);
 import { SlfError, SlfDecoder } from './slf.js';
-import { bytesOf } from './slf_headers.js';
+import { bytesOf } from './slf_arguments.js';
 import { Request } from './slf_request.js';
 
 const KEPT_BYTES = 2 ** 28; // of a stream, beyond which groups that are behind are dropped

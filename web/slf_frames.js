@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames of a light field that moves, or one that does not, from bytes that are pushed as they come.
 // slf_frame_stream.js fetches them.
-import { SlfError } from './slf_error.js';
+import { bytesOf, checkedOptions, invalid, over } from './slf_arguments.js';
 import { SlfField } from './slf_field.js';
-import { bytesOf, preflight, readCost, setOptions } from './slf_headers.js';
+import { preflight, readCost, setOptions } from './slf_headers.js';
 
 const CHUNK_BYTES = 1 << 22; // of what is copied into the instance at a time
-
-function invalid(what) { return new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${what}`); }
 
 /** In an instance of its own, until release(). Fields that it gives share it. */
 export class SlfFrames {
   #instance; #frames; #done; #list = []; #info = { place: -1, value: null };
 
   /** Use SlfDecoder.frames(). */
-  constructor(instance, options, done) {
+  constructor(instance, checked, done) {
     this.#instance = instance;
     this.#done = done;
     this.ended = false;
     instance.call((w) => {
-      setOptions(instance, options);
+      setOptions(instance, checked);
       this.#frames = w.slfw_frames_open();
       if (this.#frames === 0) instance.fail();
     });
@@ -27,8 +25,9 @@ export class SlfFrames {
 
   /** Of frames that are decoded from here on. */
   setOptions(options) {
+    const checked = checkedOptions(options);
     this.#call((w, instance) => {
-      setOptions(instance, options);
+      setOptions(instance, checked);
       if (w.slfw_frames_set_options(this.#frames) !== 0) instance.fail();
     });
   }
@@ -68,18 +67,22 @@ export class SlfFrames {
     this.#update();
   }
 
-  /** Whether the bytes of a frame are here. */
-  holds(place) { return Object.hasOwn(this.#list, place) && this.#about(place).held; }
+  /** Whether the bytes of a frame are here; of one that has not arrived they are not. */
+  holds(place) {
+    if (!Number.isInteger(place) || place < 0) throw invalid('place', 'must be a whole number, 0 or more');
+    return place < this.#list.length && this.#about(place).held;
+  }
 
   /** The frame that the group of `place` begins with. */
   groupOf(place) {
+    this.#known(place);
     while (this.#list[place]?.predicted && !this.#list[place].lost) --place;
     return place;
   }
 
   /** Headers of the group of a frame, as SlfDecoder.info has them. */
   info(place = 0) {
-    const first = this.groupOf(this.#known(place));
+    const first = this.groupOf(place);
     if (this.#info.place === first) return this.#info.value;
     const value = this.#headers(first, readCost);
     if (!this.arriving) this.#info = { place: first, value };
@@ -88,8 +91,9 @@ export class SlfFrames {
 
   /** What decode(place) takes and gives with these options, as SlfDecoder.preflight has it; of a frame that is not predicted. */
   preflight(place, options) {
-    return this.#headers(this.#known(place), (instance, stream) => {
-      setOptions(instance, options);
+    const checked = checkedOptions(options);
+    return this.#headers(this.#first(place), (instance, stream) => {
+      setOptions(instance, checked);
       return preflight(instance, stream);
     });
   }
@@ -109,7 +113,7 @@ export class SlfFrames {
 
   /** The bytes pushed next are those from this frame on, which is not predicted; what is held is dropped. */
   seek(place) {
-    this.#known(place);
+    this.#first(place);
     this.#call((w, instance) => { if (w.slfw_frames_seek(this.#frames, place) !== 0) instance.fail(); });
     this.ended = false;
   }
@@ -124,7 +128,14 @@ export class SlfFrames {
   #known(place) {
     if (place === 0 && this.arriving) return place;
     if (!Number.isInteger(place) || place < 0 || place >= this.#list.length)
-      throw invalid(`place must be a whole number below ${this.#list.length}`);
+      throw invalid('place', `must be a whole number below ${this.#list.length}: so many frames have arrived`);
+    return place;
+  }
+
+  /** A frame that has headers of its own. */
+  #first(place) {
+    if (this.#list[this.#known(place)]?.predicted)
+      throw invalid('place', `must be that of a frame that is not predicted, as ${this.groupOf(place)} is`);
     return place;
   }
 
@@ -160,7 +171,7 @@ export class SlfFrames {
   /** body(w, instance) */
   #call(body) {
     const instance = this.#instance;
-    if (instance === null) throw invalid('the frames were released');
+    if (instance === null) throw over('the frames were released');
     return instance.call((w) => body(w, instance));
   }
 }

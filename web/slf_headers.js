@@ -1,39 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is asked of a decode, and what headers say, in the numbers of web/wasm/slf_wasm.c.
-import { SlfError } from './slf_error.js';
+import { checkedOptions } from './slf_arguments.js';
 
 const UP = ['+x', '-x', '+y', '-y', '+z', '-z', 'unknown'];
 export const DIRECTIONS = ['world', 'reflected'];
 export const TRANSFERS = ['display', 'linear'];
 const PROFILES = ['main', 'draco', 'texture'];
 
-export function bytesOf(source) {
-  if (source instanceof Uint8Array) return source;
-  if (source instanceof ArrayBuffer) return new Uint8Array(source);
-  if (typeof SharedArrayBuffer === 'function' && source instanceof SharedArrayBuffer) return new Uint8Array(source);
-  if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
-  throw new SlfError('INVALID_ARGUMENT', 'INVALID_ARGUMENT: bytes must be an ArrayBuffer or a view of one');
-}
-
-function whole(options, name, most = Number.MAX_SAFE_INTEGER) {
-  const value = options[name] ?? 0;
-  if (!Number.isInteger(value) || value < 0 || value > most)
-    throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${name} must be a whole number, 0 to ${most}`);
-  return value;
-}
-
-export function setOptions(instance, options = {}) {
-  const { region } = options;
-  const corner = (side) => {
-    const at = region?.[side] ?? [0, 0, 0];
-    if (at.length !== 3 || !Array.from(at).every((x) => Number.isInteger(x) && Math.abs(x) < 2 ** 31))
-      throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: region.${side} must be three whole numbers`);
-    return at;
-  };
-  instance.setNumbers([
-    whole(options, 'levels', 255), whole(options, 'groups', 255), whole(options, 'maxBytes'), region ? 1 : 0,
-    ...corner('low'), ...corner('high'), whole(options, 'maxPoints'), whole(options, 'maxMemory'),
-    whole(options, 'maxWork'), options.onProgress ? 1 : 0, whole(options, 'layers', 255)]);
+/** @param checked  of checkedOptions() */
+export function setOptions(instance, { numbers, options }) {
+  instance.setNumbers(numbers);
   instance.wasm.slfw_set_options();
   instance.onProgress = (fraction) => (options.onProgress(fraction) === false ? 1 : 0);
 }
@@ -57,8 +33,7 @@ export function readInfo(instance, stream) {
   };
 }
 
-const UNLIMITED = { maxPoints: Number.MAX_SAFE_INTEGER, maxMemory: Number.MAX_SAFE_INTEGER,
-  maxWork: Number.MAX_SAFE_INTEGER };
+const UNLIMITED = checkedOptions({ maxPoints: Infinity, maxMemory: Infinity, maxWork: Infinity });
 
 /** The same, and what a decode of all of it takes. */
 export function readCost(instance, stream) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // WebAssembly: which build, compiled from where, and instances with memory of their own.
+import { invalid, over } from './slf_arguments.js';
 import { SlfError } from './slf_error.js';
 
 /** (module (func (result v128) i32.const 0 i8x16.splat)): valid only where there is SIMD. */
@@ -68,6 +69,14 @@ async function moduleOf(source) {
   return WebAssembly.compile(source);
 }
 
+/** What arguments have to be that the decoder itself refuses, by the names that it has for them. */
+const REFUSED = {
+  levels: 'must be at most those of the file', groups: 'must be at most those of the file',
+  layers: 'must be at most those of the group that has most', max_bytes: '(maxBytes) must be 0: frames are read whole',
+  points: 'must be below the number of points', directions: 'must be finite, and not 0', finish: '() has been called: nothing follows',
+  place: 'must be that of a frame that has arrived, and is neither predicted nor lost',
+};
+
 /** One instance of the decoder with its own memory. */
 export class Instance {
   #refusal = null; // the error that left it as it was
@@ -99,7 +108,7 @@ export class Instance {
    * the middle or an exception of the caller's one that is not used again.
    */
   call(body) {
-    if (this.dead) throw new SlfError('INVALID_ARGUMENT', 'INVALID_ARGUMENT: used after a failure or a release');
+    if (this.dead) throw over('used after a failure or a release');
     this.#blocks = [];
     try {
       return body(this.wasm);
@@ -122,7 +131,8 @@ export class Instance {
   fail() {
     const w = this.wasm;
     const text = (which) => this.text(w.slfw_text(which));
-    const code = text(0).replace(/^SLF_/, '');
+    const code = text(0).replace(/^SLF_/, ''), expected = REFUSED[text(1)];
+    if (code === 'INVALID_ARGUMENT' && expected) this.refuse(invalid(text(1), expected));
     this.refuse(new SlfError(code, text(3).replace(/^SLF_/, ''),
       { element: text(1), unit: text(2), bitOffset: w.slfw_bit_offset() }));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files on a server, read in parts: the beginning with the index, then what is asked for.
 import { SlfError, SlfDecoder } from './slf.js';
+import { checkedOptions } from './slf_arguments.js';
 import { preflight, readInfo, setOptions } from './slf_headers.js';
 import { contentRange, network, Request } from './slf_request.js';
 
@@ -106,7 +107,7 @@ export class SlfStream {
 
   #ranges(instance, opened, options) {
     const w = instance.wasm;
-    setOptions(instance, { ...options, onProgress: undefined });
+    setOptions(instance, checkedOptions({ ...options, onProgress: undefined }));
     const count = w.slfw_ranges(opened);
     if (count < 0) instance.fail();
     return Array.from({ length: count }, (_, i) => {
