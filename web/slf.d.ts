@@ -280,7 +280,7 @@ export interface SlfOpenOptions {
   signal?: AbortSignal;
   headers?: Record<string, string>;
   credentials?: RequestCredentials;
-  /** NETWORK where nothing comes for so long [30000]. */
+  /** NETWORK where nothing comes for so long, more than 0 [30000]; Infinity: it may take for ever. */
   stallMs?: number;
 }
 

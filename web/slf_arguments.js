@@ -13,11 +13,12 @@ export function over(words) { return new SlfError('INVALID_ARGUMENT', `INVALID_A
 /** By their tags: those of another frame, or of another realm of node, are no instances of ours. */
 const BUFFERS = ['[object ArrayBuffer]', '[object SharedArrayBuffer]'];
 
-export function bytesOf(source, name = 'bytes') {
+/** @param {string} expected  where more than bytes will do */
+export function bytesOf(source, name = 'bytes', expected = 'an ArrayBuffer or a view of one') {
   if (source instanceof Uint8Array) return source;
   if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
   if (BUFFERS.includes(Object.prototype.toString.call(source))) return new Uint8Array(source);
-  throw invalid(name, 'must be an ArrayBuffer or a view of one');
+  throw invalid(name, `must be ${expected}`);
 }
 
 function whole(options, name, most = Number.MAX_SAFE_INTEGER) {
@@ -68,4 +69,53 @@ export function checkedOptions(options = {}) {
     limit(options, 'maxPoints'), limit(options, 'maxMemory'), limit(options, 'maxWork'), onProgress ? 1 : 0,
     whole(options, 'layers', 255)]; // in the order of web/wasm/slf_wasm.c
   return { numbers, options };
+}
+
+const MOST_SIDE = 1024;
+
+/** Side of a function table. */
+export function sideOf({ side = 65 } = {}) {
+  if (!Number.isInteger(side) || side < 2 || side > MOST_SIDE) throw invalid('side', `must be a whole number, 2 to ${MOST_SIDE}`);
+  return side;
+}
+
+/** Arrays of a field, by the names that a worker is asked for them with. */
+export const ARRAYS = ['positions', 'values', 'octahedral', 'weights', 'meanColours', 'normals', 'centres', 'radii', 'areas',
+  'mirrorNormals', 'covariances', 'opacities'];
+
+/** What is wanted of a field of a worker. */
+export function checkWanted({ arrays = ARRAYS, functionTable }) {
+  const listed = typeof arrays !== 'string' && typeof arrays?.[Symbol.iterator] === 'function';
+  if (!listed || ![...arrays].every((name) => ARRAYS.includes(name)))
+    throw invalid('arrays', `must be an array of some of ${ARRAYS.join(', ')}`);
+  if (functionTable) sideOf(functionTable);
+}
+
+/**
+ * An address in full, as fetch() has it: of a page its base counts.
+ * @param {boolean} own  the caller fetches it: any text is an address then
+ */
+export function addressOf(url, name = 'url', own = false) {
+  const text = typeof url === 'string' ? url : url?.href; // of an URL, a link, the page's location
+  if (typeof text !== 'string') throw invalid(name, 'must be an address');
+  if (own) return text;
+  try {
+    return new URL(text, globalThis.document?.baseURI ?? globalThis.location?.href).href;
+  } catch (cause) {
+    throw invalid(name, `must be an address, which ${text} is not`, cause);
+  }
+}
+
+export function checkSignal(signal) {
+  if (signal && typeof signal.addEventListener !== 'function') throw invalid('signal', 'must be an AbortSignal');
+}
+
+export function checkDecoder(decoder) {
+  if (decoder && typeof decoder.decodeParts !== 'function')
+    throw invalid('decoder', 'must be an SlfDecoder, which SlfDecoder.create() promises');
+}
+
+/** Bytes beyond which groups are dropped. */
+export function checkKeepBytes(bytes) {
+  if (!(typeof bytes === 'number' && bytes >= 0)) throw invalid('keepBytes', 'must be a number of bytes, 0 or more');
 }

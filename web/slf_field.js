@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A decoded light field: arrays, colours, what a shader needs.
-import { invalid, over } from './slf_arguments.js';
+import { invalid, over, sideOf } from './slf_arguments.js';
 import { DIRECTIONS, TRANSFERS } from './slf_headers.js';
 
 const CHUNK_BYTES = 1 << 20; // of arrays on their way out
-const MOST_SIDE = 1024; // of a function table
 
 /** The arrays of slfw_read, by number. */
 const POSITIONS = 0, COMPONENTS = 1, OCTAHEDRAL = 2, WEIGHTS = 3, MEANS = 4, MIRROR_NORMALS = 5,
@@ -68,9 +67,8 @@ export class SlfField {
     return this.#read(WEIGHTS, Float32Array, 3 * this.functions, out, first, count);
   }
 
-  functionTable({ side = 65 } = {}) {
-    if (!Number.isInteger(side) || side < 2 || side > MOST_SIDE)
-      throw invalid('side', `must be a whole number, 2 to ${MOST_SIDE}`);
+  functionTable(options) {
+    const side = sideOf(options);
     const layers = Math.ceil(this.functions / 4), floats = layers * 24 * side * side;
     return this.#call((w, instance) => {
       const at = instance.alloc(4 * floats);

@@ -6,7 +6,7 @@ import type { SlfBytes, SlfDecoder, SlfError, SlfEstimate, SlfField, SlfFrame, S
 export type SlfFrameSource = string | URL | Blob | SlfBytes;
 
 export interface SlfFramesOptions extends SlfOpenOptions, SlfOptions {
-  /** Bytes of the stream beyond which groups that are behind are dropped; they are fetched again, by ranges [2^28]. */
+  /** Bytes of the stream beyond which groups that are behind are dropped, and fetched again by ranges [2^28]; Infinity: none are. */
   keepBytes?: number;
 }
 

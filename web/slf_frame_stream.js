@@ -3,17 +3,19 @@
 //
 //     for await (const frame of frames('walk.slf')) show(frame.time, frame.field);
 import { SlfError, SlfDecoder } from './slf.js';
-import { bytesOf } from './slf_arguments.js';
-import { Request } from './slf_request.js';
+import { addressOf, bytesOf, checkDecoder, checkKeepBytes, checkedOptions, invalid } from './slf_arguments.js';
+import { Request, requestOptions } from './slf_request.js';
 
 const KEPT_BYTES = 2 ** 28; // of a stream, beyond which groups that are behind are dropped
 
-/** Pieces of a source from an offset on. */
-function piecesOf(source, request) {
-  if (typeof source === 'string' || source instanceof URL)
-    return (offset) => new Request(request).pieces(String(source), offset);
+/** Pieces of a source from an offset on. @param {boolean} own  the caller fetches them */
+function piecesOf(source, request, own) {
+  if (typeof source === 'string' || source instanceof URL) {
+    const address = addressOf(source, 'source', own);
+    return (offset) => new Request(request).pieces(address, offset);
+  }
   if (typeof Blob === 'function' && source instanceof Blob) return (offset) => piecesOfStream(source.slice(offset).stream());
-  const bytes = bytesOf(source);
+  const bytes = bytesOf(source, 'source', 'an address, a Blob, an ArrayBuffer or a view of one');
   return async function* whole(offset) { yield bytes.subarray(offset); };
 }
 
@@ -46,11 +48,14 @@ export class SlfFrameStream {
   }
 
   /** Resolves when the first frame is here. */
-  static async open(source, { decoder, wasm, signal, fetch: get, headers = {}, credentials, stallMs = 30000,
-    keepBytes = KEPT_BYTES, ...options } = {}) {
+  static async open(source, { decoder, wasm, signal, fetch: get, headers, credentials, stallMs, keepBytes = KEPT_BYTES,
+    ...options } = {}) {
+    const request = requestOptions({ signal, fetch: get, headers, credentials, stallMs });
+    const from = piecesOf(source, request, Boolean(get));
+    checkDecoder(decoder);
+    checkKeepBytes(keepBytes);
+    checkedOptions(options);
     decoder ??= await SlfDecoder.create({ wasm });
-    const request = { signal, fetch: get ?? ((...all) => globalThis.fetch(...all)), headers, credentials, stallMs };
-    const from = piecesOf(source, request);
     const stream = new SlfFrameStream(decoder.frames(options), from, keepBytes, signal);
     try {
       await stream.arrive(0);
@@ -82,7 +87,7 @@ export class SlfFrameStream {
   decode(place) {
     return this.#inTurn(async () => {
       if (!(await this.#arrive(place)))
-        throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: there are ${this.list.length} frames`);
+        throw invalid('place', `must be below ${this.list.length}: the stream ends there`);
       return this.#frames.decode(place);
     });
   }
@@ -132,7 +137,7 @@ export class SlfFrameStream {
 
   async #arrive(place) {
     const frames = this.#frames;
-    if (!Number.isInteger(place) || place < 0) throw new SlfError('INVALID_ARGUMENT', 'INVALID_ARGUMENT: a frame is a whole number from 0 on');
+    if (!Number.isInteger(place) || place < 0) throw invalid('place', 'must be a whole number, 0 or more');
     await this.#goBack(place);
     while (!(place < frames.list.length && (frames.list[place].lost || frames.holds(place)))) {
       if (frames.ended) return false;

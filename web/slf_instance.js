@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // WebAssembly: which build, compiled from where, and instances with memory of their own.
-import { invalid, over } from './slf_arguments.js';
+import { addressOf, invalid, optionalFunction, over } from './slf_arguments.js';
 import { SlfError } from './slf_error.js';
 
 /** (module (func (result v128) i32.const 0 i8x16.splat)): valid only where there is SIMD. */
@@ -25,6 +25,7 @@ function defaultAddress(locateFile) {
  * @param locateFile  (name) => address of a file of this package, or nothing: where it is by default
  */
 export async function compile(source, locateFile) {
+  optionalFunction(locateFile, 'locateFile');
   try {
     return await moduleOf((await source) ?? defaultAddress(locateFile));
   } catch (error) {
@@ -51,7 +52,7 @@ export function decoderModule({ wasm, locateFile } = {}) {
 async function moduleOf(source) {
   if (source instanceof WebAssembly.Module) return source;
   if (typeof source === 'string' || source instanceof URL) {
-    const address = String(source);
+    const address = addressOf(source, 'wasm');
     if (address.startsWith('file:') && files.read) return WebAssembly.compile(await files.read(new URL(address)));
     const response = await fetch(address);
     const type = response.headers.get('content-type') ?? '';
@@ -61,12 +62,16 @@ async function moduleOf(source) {
     source = response;
   }
   if (typeof Response === 'function' && source instanceof Response) {
+    if (source.bodyUsed) throw invalid('wasm', 'must be a Response that nobody has read');
     if (!source.ok) throw new Error(`${source.status} ${source.url}`);
     const type = source.headers.get('content-type') ?? '';
     if (WebAssembly.compileStreaming && type.startsWith('application/wasm')) return WebAssembly.compileStreaming(source);
     source = await source.arrayBuffer();
   }
-  return WebAssembly.compile(source);
+  return WebAssembly.compile(source).catch((error) => {
+    throw error instanceof TypeError ? invalid('wasm', 'must be an address, a Response, bytes, a WebAssembly.Module, or a promise of one', error)
+      : error;
+  });
 }
 
 /** What arguments have to be that the decoder itself refuses, by the names that it has for them. */

@@ -1,9 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // Requests to a server that may stall, break off or know no ranges: every failure is an SlfError.
+import { checkSignal, invalid, optionalFunction } from './slf_arguments.js';
 import { SlfError } from './slf_error.js';
+
+const MOST_TIMER_MS = 2 ** 31 - 1; // what is longer ends at once
+const CREDENTIALS = ['omit', 'same-origin', 'include'];
 
 export function network(message, cause) {
   return new SlfError('NETWORK', `NETWORK: ${message}`, { cause });
+}
+
+/** Headers in a plain object, whatever fetch() takes them in. */
+function headersOf(given) {
+  try {
+    return Symbol.iterator in given ? Object.fromEntries(new Headers(given)) : (new Headers(given), given);
+  } catch (cause) {
+    throw invalid('headers', 'must be names and values of HTTP', cause);
+  }
+}
+
+/** SlfOpenOptions and `fetch`, checked, as Request takes them. @throws {SlfError} INVALID_ARGUMENT */
+export function requestOptions({ signal, fetch: get, headers, credentials, stallMs = 30000 }) {
+  checkSignal(signal);
+  optionalFunction(get, 'fetch');
+  if (credentials !== undefined && !CREDENTIALS.includes(credentials))
+    throw invalid('credentials', `must be ${CREDENTIALS.join(', ')}`);
+  if (!(typeof stallMs === 'number' && stallMs > 0)) throw invalid('stallMs', 'must be a number of milliseconds above 0, or Infinity');
+  return { signal, fetch: get || ((...all) => globalThis.fetch(...all)), headers: headersOf(headers ?? {}), credentials, stallMs };
 }
 
 /** Start, end (not included) and size of a Content-Range, or null. */
@@ -15,6 +38,7 @@ export function contentRange(response) {
 /** One request at a time: its body, cut off where it stalls or where the caller says so. */
 export class Request {
   #timer; #abort = new AbortController(); #stalled = false; #options; #forward;
+  #thrown = null; // {error} of a function of the caller
 
   constructor(options) {
     this.#options = options;
@@ -90,7 +114,7 @@ export class Request {
       size += value.byteLength;
       if (size > most) throw network(`more bytes than the ${most} that were asked for`);
       parts.push(value);
-      told?.(size);
+      this.#tell(told, size);
     }
     if (expected !== undefined && size !== expected) throw network(`${size} of ${expected} bytes came`);
     const bytes = new Uint8Array(size);
@@ -102,8 +126,18 @@ export class Request {
     return bytes;
   }
 
+  #tell(told, size) {
+    try {
+      told?.(size);
+    } catch (error) {
+      this.#thrown = { error };
+      throw error;
+    }
+  }
+
   #wait() {
     clearTimeout(this.#timer);
+    if (this.#options.stallMs > MOST_TIMER_MS) return;
     this.#timer = setTimeout(() => {
       this.#stalled = true;
       this.#abort.abort();
@@ -111,6 +145,7 @@ export class Request {
   }
 
   #explain(error, url) {
+    if (this.#thrown) return error;
     if (this.#stalled) return network(`nothing came for ${this.#options.stallMs} ms from ${url}`, error);
     if (this.#options.signal?.aborted) return new SlfError('ABORTED', 'ABORTED: by the caller', { cause: error });
     return error instanceof SlfError ? error : network(`${url}: ${error.message}`, error);

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files on a server, read in parts: the beginning with the index, then what is asked for.
 import { SlfError, SlfDecoder } from './slf.js';
-import { checkedOptions } from './slf_arguments.js';
+import { addressOf, checkDecoder, checkedOptions, checkSignal, optionalFunction } from './slf_arguments.js';
 import { preflight, readInfo, setOptions } from './slf_headers.js';
-import { contentRange, network, Request } from './slf_request.js';
+import { contentRange, network, Request, requestOptions } from './slf_request.js';
 
 const FIRST_BYTES = 1 << 16;
+
+/** Options of a decode, of which nothing is told. */
+function quietly(options) {
+  return checkedOptions({ ...checkedOptions(options).options, onProgress: undefined });
+}
 
 export class SlfStream {
   #url; #options; #decoder; #parts = []; #tag = null; #reading = Promise.resolve();
@@ -21,10 +26,13 @@ export class SlfStream {
     this.info = null;
   }
 
-  static async open(url, { decoder, wasm, signal, fetch: get, headers = {}, credentials, stallMs = 30000, onProgress } = {}) {
+  static async open(url, { decoder, wasm, onProgress, ...request } = {}) {
+    const address = addressOf(url, 'url', Boolean(request.fetch));
+    checkDecoder(decoder);
+    optionalFunction(onProgress, 'onProgress');
+    const options = requestOptions(request);
     decoder ??= await SlfDecoder.create({ wasm });
-    const options = { signal, fetch: get ?? ((...all) => globalThis.fetch(...all)), headers, credentials, stallMs };
-    const stream = new SlfStream(String(url), decoder, options);
+    const stream = new SlfStream(address, decoder, options);
     await stream.#begin(onProgress);
     await stream.#retry(() => decoder.withParts(stream.bytes, stream.#at, (instance, opened) => {
       stream.info = readInfo(instance, opened);
@@ -33,26 +41,30 @@ export class SlfStream {
   }
 
   /** What decode(options) would read of the file that is not here yet, and what it gives. */
-  preflight(options = {}) {
+  preflight(options) {
+    const checked = quietly(options);
     return this.#decoder.withParts(this.bytes, this.#at, (instance, opened) => {
-      const ranges = this.#missing(this.#ranges(instance, opened, options));
+      const ranges = this.#missing(this.#ranges(instance, opened, checked));
       const readBytes = ranges.reduce((sum, range) => sum + range.end - range.begin, 0);
       return { ...preflight(instance, opened), readBytes, requests: ranges.length };
     });
   }
 
   /** Reads what decode(options) needs. onRead(bytes so far, bytes of this call) */
-  async read(options = {}, { onRead, signal = this.#options.signal } = {}) {
+  async read(options, { onRead, signal = this.#options.signal } = {}) {
+    const checked = quietly(options);
+    optionalFunction(onRead, 'onRead');
+    checkSignal(signal);
     // One after another: what the one before has read need not come again.
-    const reading = this.#reading.then(() => this.#read(options, onRead, signal));
+    const reading = this.#reading.then(() => this.#read(checked, onRead, signal));
     this.#reading = reading.catch(() => {});
     return reading;
   }
 
-  async #read(options, onRead, signal) {
+  async #read(checked, onRead, signal) {
     if (signal?.aborted) throw new SlfError('ABORTED', 'ABORTED: by the caller', { cause: signal.reason });
     const ranges = this.#decoder.withParts(this.bytes, this.#at,
-      (instance, opened) => this.#missing(this.#ranges(instance, opened, options)));
+      (instance, opened) => this.#missing(this.#ranges(instance, opened, checked)));
     const all = ranges.reduce((sum, range) => sum + range.end - range.begin, 0);
     let before = 0;
     for (const wanted of ranges)
@@ -63,7 +75,7 @@ export class SlfStream {
   }
 
   /** Reads and decodes. */
-  async decode(options = {}, reading = {}) {
+  async decode(options, reading) {
     await this.read(options, reading);
     return this.#decoder.decodeParts(this.bytes, this.#at, options);
   }
@@ -105,9 +117,9 @@ export class SlfStream {
     }
   }
 
-  #ranges(instance, opened, options) {
+  #ranges(instance, opened, checked) {
     const w = instance.wasm;
-    setOptions(instance, checkedOptions({ ...options, onProgress: undefined }));
+    setOptions(instance, checked);
     const count = w.slfw_ranges(opened);
     if (count < 0) instance.fail();
     return Array.from({ length: count }, (_, i) => {

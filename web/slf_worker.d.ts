@@ -32,6 +32,7 @@ export interface SlfWanted {
 /** Decoding in a worker of its own, which runs slf_worker_service.js. */
 export class SlfWorker {
   private constructor();
+  /** worker: one that runs slf_worker_service.js, or a function that starts one; it has to be given where there is no Worker, as in node. */
   static create(options?: SlfParts & { worker?: Worker | (() => Worker | Promise<Worker>) }): Promise<SlfWorker>;
   info(bytes: SlfBytes): Promise<SlfInfo>;
   decode(bytes: SlfBytes, options?: Omit<SlfOptions, 'onProgress'>, wanted?: SlfWanted & { transfer?: boolean }): Promise<SlfPlainField>;

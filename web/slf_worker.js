@@ -4,17 +4,19 @@
 //     const worker = await SlfWorker.create();
 //     const field = await worker.decode(bytes, { levels: 9 }, { arrays: ['positions', 'weights'] });
 import { SlfDecoder, SlfError } from './slf.js';
+import { addressOf, bytesOf, checkSignal, checkWanted, checkedOptions, invalid, optionalFunction } from './slf_arguments.js';
 import { startWorker } from './start_worker.js';
 
 const ownWorker = () => new Worker(new URL('./slf_worker_service.js', import.meta.url), { type: 'module' });
 
-/** That a worker, which may be of another place, finds. */
-function addressOf(url) {
-  try {
-    return new URL(url, globalThis.location?.href).href;
-  } catch (cause) {
-    throw new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${url} is no address`, { cause });
-  }
+function checkWorker(worker) {
+  if (typeof worker?.postMessage !== 'function') throw invalid('worker', 'must be a Worker, or a function that starts one');
+}
+
+/** Options of a decode in a worker. */
+function checkOptions(options) {
+  checkedOptions(options);
+  if (options?.onProgress) throw invalid('onProgress', 'is not for decodes in a worker');
 }
 
 export class SlfWorker {
@@ -30,19 +32,25 @@ export class SlfWorker {
 
   /** worker: one that runs slf_worker_service.js, or a function that starts one; wasm, locateFile: as of SlfDecoder.create. */
   static async create({ wasm, locateFile, worker } = {}) {
+    if (worker && typeof worker !== 'function') checkWorker(worker);
     const { module } = await SlfDecoder.create({ wasm, locateFile });
-    if (typeof worker === 'function') worker = await worker();
+    if (typeof worker === 'function') checkWorker((worker = await worker()));
     worker ??= await startWorker(ownWorker, () => import('./made/slf_worker_text.js'));
     const client = new SlfWorker(worker);
     await client.#call('create', { module });
     return client;
   }
 
-  info(bytes) { return this.#call('info', { bytes }); }
+  async info(bytes) {
+    bytesOf(bytes);
+    return this.#call('info', { bytes });
+  }
 
   /** options: as of SlfDecoder.decode but onProgress. transfer: hand the bytes over instead of copying them. */
-  decode(bytes, options = {}, { transfer = false, signal, ...wanted } = {}) {
-    const owned = transfer ? [bytes instanceof ArrayBuffer ? bytes : bytes.buffer] : [];
+  async decode(bytes, options = {}, { transfer = false, signal, ...wanted } = {}) {
+    const { buffer } = bytesOf(bytes), owned = transfer ? [buffer] : [];
+    checkOptions(options);
+    checkWanted(wanted);
     return this.#call('decode', { bytes, options, wanted }, { transfer: owned, signal });
   }
 
@@ -51,8 +59,12 @@ export class SlfWorker {
     const opened = await this.#call('open', { url: address, options: { stallMs, headers, credentials } }, { signal });
     return {
       ...opened,
-      decode: (options = {}, { onRead, signal: stop, ...wanted } = {}) =>
-        this.#call('decodeStream', { stream: id, options, wanted }, { onRead, signal: stop }),
+      decode: async (options = {}, { onRead, signal: stop, ...wanted } = {}) => {
+        checkOptions(options);
+        checkWanted(wanted);
+        optionalFunction(onRead, 'onRead');
+        return this.#call('decodeStream', { stream: id, options, wanted }, { onRead, signal: stop });
+      },
       close: () => this.#call('close', { stream: id }),
     };
   }
@@ -60,11 +72,12 @@ export class SlfWorker {
   /** A stream of several frames. source: an address, a Blob or bytes; options: as of SlfFrameStream.open but fetch. */
   async openFrames(source, { signal, ...options } = {}) {
     const id = this.#next;
-    const from = typeof source === 'string' || source instanceof URL ? addressOf(source) : source;
+    const from = typeof source === 'string' || source instanceof URL ? addressOf(source, 'source') : source;
     const { info } = await this.#call('openFrames', { source: from, options }, { signal });
     return {
       info,
       frame: async (place, { signal: stop, ...wanted } = {}) => {
+        checkWanted(wanted); // what is wrong with it is no matter of the frame's
         const frame = await this.#call('frame', { stream: id, place, wanted }, { signal: stop });
         return frame?.error ? { ...frame, error: new SlfError(frame.error.code, frame.error.message, frame.error) } : frame;
       },
@@ -100,6 +113,7 @@ export class SlfWorker {
     const id = this.#next++;
     return new Promise((resolve, reject) => {
       if (this.#ended) throw this.#ended;
+      checkSignal(signal);
       const aborted = () => new SlfError('ABORTED', 'ABORTED: by the caller', { cause: signal.reason });
       if (signal?.aborted) throw aborted();
       // A decode that goes on in the worker is not interrupted: its result is dropped.

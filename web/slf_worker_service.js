@@ -1,27 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the worker of SlfWorker (slf_worker.js) runs: a decoder, and streams by their number.
 import { SlfDecoder, SlfError } from './slf.js';
+import { ARRAYS, over } from './slf_arguments.js';
 import { SlfFrameStream } from './slf_frame_stream.js';
 import { SlfStream } from './slf_stream.js';
 
 const PLAIN = ['points', 'components', 'functions', 'partial', 'grid', 'directions', 'transfer', 'up', 'rightHanded',
   'hasBasis', 'hasNormals', 'hasSplats', 'gamma', 'kernel', 'info'];
-const READERS = {
-  positions: (field) => field.positions,
-  values: (field) => field.values,
-  octahedral: (field) => field.octahedral,
-  weights: (field) => (field.hasBasis ? field.weights() : null),
-  meanColours: (field) => (field.hasBasis ? field.meanColours() : null),
-  normals: (field) => field.normals,
-  centres: (field) => field.centres,
-  radii: (field) => field.radii,
-  areas: (field) => field.areas,
-  mirrorNormals: (field) => field.mirrorNormals,
-  covariances: (field) => field.covariances,
-  opacities: (field) => field.opacities,
-};
+/** What a field without a basis does not have. */
+const OF_BASIS = ['weights', 'meanColours'];
 
-function invalid(what) { return new SlfError('INVALID_ARGUMENT', `INVALID_ARGUMENT: ${what}`); }
+function arrayOf(field, name) {
+  if (!OF_BASIS.includes(name)) return field[name];
+  return field.hasBasis ? field[name]() : null;
+}
 
 /** An error as data. */
 function plainError(error) {
@@ -31,13 +23,12 @@ function plainError(error) {
 }
 
 /** A field as data, with the arrays that were asked for, and what of it can be handed over. */
-function plainField(field, { arrays = Object.keys(READERS), functionTable } = {}) {
+function plainField(field, { arrays = ARRAYS, functionTable } = {}) {
   try {
     const plain = Object.fromEntries(PLAIN.map((name) => [name, field[name]]));
     const buffers = [];
     for (const name of new Set(arrays)) {
-      if (!Object.keys(READERS).includes(name)) throw invalid(`no array is called ${name}`);
-      plain[name] = READERS[name](field);
+      plain[name] = arrayOf(field, name);
       if (plain[name]) buffers.push(plain[name].buffer);
     }
     if (functionTable && field.hasBasis) {
@@ -66,7 +57,7 @@ class Service {
 
   async decodeStream({ id, stream, options, wanted }) {
     const source = this.#streams.get(stream);
-    if (source === undefined) throw invalid('the stream was closed');
+    if (source === undefined) throw over('the stream was closed');
     const onRead = (bytes, all) => postMessage({ id, read: [bytes, all] });
     const field = await source.decode(options, { onRead, signal: this.#signal(id) });
     return plainField(field, wanted);
@@ -81,7 +72,7 @@ class Service {
   /** What is wrong with a frame is a part of the answer: those behind it may be sound. */
   async frame({ stream, place, wanted }) {
     const source = this.#streams.get(stream);
-    if (source === undefined) throw invalid('the stream was closed');
+    if (source === undefined) throw over('the stream was closed');
     if (!(await source.arrive(place))) return { plain: null, buffers: [] };
     const about = { ...source.list[place], field: null, error: null };
     try {

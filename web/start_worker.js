@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Workers that start wherever this code came from: browsers refuse a worker whose script is of another origin, and some
 // bundlers leave it out.
+import { invalid } from './slf_arguments.js';
 import { SlfError } from './slf_error.js';
 
 /**
  * @param {() => Worker} own  starts it from its own address; it posts {ready: true} when it runs
  * @param {() => Promise<{text: string}>} copy  the same script in one piece, fetched only where `own` does not start
  * @returns {Promise<Worker>} that has started
- * @throws {SlfError} code NETWORK; its cause is what the second try met
+ * @throws {SlfError} code NETWORK; its cause is what the second try met. INVALID_ARGUMENT where there are no workers
  */
 export async function startWorker(own, copy) {
+  if (typeof Worker === 'undefined') throw invalid('worker', 'must be given where there is no Worker, as in node');
   try {
     return await started(own());
   } catch {
