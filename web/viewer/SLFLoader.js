@@ -5,6 +5,7 @@
 //   scene.add(await new SLFLoader().loadAsync('can.slf'))
 import { FileLoader, Loader } from 'three';
 import { SlfDecoder, decoderModule } from '../slf.js';
+import { bytesOf } from '../slf_arguments.js';
 import { FieldLoader } from './field_loader.js';
 import { DecodeSession, plainError } from './decode_session.js';
 import { FrameSession } from './frame_session.js';
@@ -22,12 +23,44 @@ async function decoderOf(module) {
   return decoders.get(compiled);
 }
 
+// What a caller gives is refused as three and SurfaceLightField refuse it: a TypeError, a RangeError. A ViewerError is a file's.
+
+function partFrom(given) {
+  if (typeof given !== 'object' || given === null) throw new TypeError(`setPart(${given}): an object with levels, groups, layers`);
+  const wholeOf = (name) => {
+    const value = given[name] ?? 0;
+    if (Number.isInteger(value) && value >= 0) return value;
+    throw new RangeError(`setPart({ ${name}: ${value} }): a whole number; 0: all`);
+  };
+  return { levels: wholeOf('levels'), groups: wholeOf('groups'), layers: wholeOf('layers') };
+}
+
+function checkWorker(worker) {
+  if (worker && typeof worker !== 'function') throw new TypeError('SLFLoader.worker: a function that starts a Worker');
+  if (!worker && typeof Worker === 'undefined')
+    throw new TypeError('SLFLoader.worker: there is no Worker here, as in node. Set one, or use parse()');
+}
+
+function wholeFile(buffer) {
+  try {
+    return bytesOf(buffer);
+  } catch (cause) {
+    throw new TypeError(`SLFLoader.parse(${buffer === null ? buffer : typeof buffer}): an ArrayBuffer, or a view of one`, { cause });
+  }
+}
+
+function checkAddress(url, others = '') {
+  if (typeof url !== 'string' && !(url instanceof URL)) throw new TypeError(`SLFLoader: ${url} is no address${others}`);
+}
+
 /**
  * load(url, onLoad, onProgress, onError), loadAsync(url, onProgress) as every loader of three; both also
- * take a File or Blob. They decode in a worker. parse() decodes on this thread. Every error is a ViewerError. What moves
+ * take a File or Blob. They decode in a worker. parse() decodes on this thread. What is wrong with a file is a ViewerError. What moves
  * shows its first frame, and keeps what decodes the others until it is disposed of.
  */
 export class SLFLoader extends Loader {
+  #maxMemory = 2 ** 31;
+
   /**
    * @param {object} parts  where the package's files are, if not beside this one; properties too:
    *   wasm: address, bytes or module of the decoder; worker: () => Worker that runs decode_worker.js, or a promise of one;
@@ -36,14 +69,23 @@ export class SLFLoader extends Loader {
   constructor(manager, { wasm, worker, locateFile } = {}) {
     super(manager);
     this.part = {};
-    this.maxMemory = 2 ** 31;
     Object.assign(this, { wasm, worker, locateFile });
   }
 
   /** Fewer octree levels, plane groups or quality layers than the file has; 0: all. */
-  setPart({ levels = 0, groups = 0, layers = 0 }) {
-    this.part = { levels, groups, layers };
+  setPart(part) {
+    this.part = partFrom(part);
     return this;
+  }
+
+  /** Bytes that a decode may take; Infinity: what WebAssembly has. */
+  get maxMemory() {
+    return this.#maxMemory;
+  }
+
+  set maxMemory(bytes) {
+    if (!(typeof bytes === 'number' && bytes >= 0)) throw new RangeError(`SLFLoader.maxMemory = ${bytes}: bytes, 0 or more, or Infinity`);
+    this.#maxMemory = bytes;
   }
 
   load(url, onLoad, onProgress, onError) {
@@ -68,7 +110,9 @@ export class SLFLoader extends Loader {
    * Coarse objects first; of what moves the first frame, while the others arrive.
    * @param onCoarse  called with each, which the next replaces
    */
-  stream(url, onCoarse) {
+  async stream(url, onCoarse) {
+    checkAddress(url);
+    if (typeof onCoarse !== 'function') throw new TypeError('SLFLoader.stream(): onCoarse is a function');
     const field = (packed, info, final) => {
       if (!final) onCoarse(new SurfaceLightField(packed, info));
     };
@@ -79,16 +123,17 @@ export class SLFLoader extends Loader {
   }
 
   /**
-   * @param {ArrayBuffer|Uint8Array} buffer  a whole file
+   * @param {ArrayBuffer|ArrayBufferView} buffer  a whole file
    * @returns {Promise<SurfaceLightField>}
    * @throws {ViewerError} kind 'damaged', 'unsupported', 'too-large', 'memory', 'no-view-maps', 'network', 'policy'
    */
   async parse(buffer) {
-    if (moves(new Uint8Array(buffer))) return this.parseFrames(new Uint8Array(buffer));
+    const bytes = wholeFile(buffer);
+    if (moves(bytes)) return this.parseFrames(bytes);
     const session = new DecodeSession(() => decoderOf(decoderModule(this)));
-    session.append(new Uint8Array(buffer));
+    session.append(bytes);
     try {
-      const { packed, info } = await session.decode({ ...this.part, budget: { maxMemory: this.maxMemory } });
+      const { packed, info } = await session.decode({ ...this.part, budget: this.#budget() });
       return new SurfaceLightField(packed, info);
     } catch (error) {
       throw ViewerError.from(plainError(error));
@@ -113,7 +158,7 @@ export class SLFLoader extends Loader {
       session.close();
     };
     try {
-      await frames.open(bytes, { ...this.part, budget: { maxMemory: this.maxMemory } });
+      await frames.open(bytes, { ...this.part, budget: this.#budget() });
       return SurfaceLightField.moving(await frames.decode(0), frames, end);
     } catch (error) {
       end();
@@ -121,13 +166,21 @@ export class SLFLoader extends Loader {
     }
   }
 
+  /** In whole bytes, as a decoder takes it. */
+  #budget() {
+    return { maxMemory: Math.min(Math.floor(this.maxMemory), Number.MAX_SAFE_INTEGER) };
+  }
+
   fieldLoader() {
-    const { worker, wasm, locateFile, maxMemory } = this;
-    return new FieldLoader({ worker, wasm, locateFile, maxMemory, mayBeCoarser: false });
+    const { worker, wasm, locateFile } = this;
+    checkWorker(worker);
+    return new FieldLoader({ worker, wasm, locateFile, ...this.#budget(), mayBeCoarser: false });
   }
 
   async fetch(url, onProgress) {
+    checkWorker(this.worker); // before a file is fetched that none would decode
     if (url instanceof Blob) return url.arrayBuffer();
+    checkAddress(url, ', File or Blob');
     const loader = new FileLoader(this.manager);
     loader.setPath(this.path);
     loader.setResponseType('arraybuffer');

@@ -146,6 +146,8 @@ const WORDS = {
 };
 const KINDS = { OUT_OF_MEMORY: 'memory', LIMIT_EXCEEDED: 'too-large', UNSUPPORTED: 'unsupported', NETWORK: 'network', POLICY: 'policy' };
 
+const OF_DECODER = ['wasm', 'locateFile']; // arguments that say where it is: it is missing then, and no file is damaged
+
 const own = (table, name) => (Object.hasOwn(table, name) ? table[name] : undefined);
 
 /** An error as a message can carry it: what a ViewerError is made of. */
@@ -153,6 +155,8 @@ export function plainError(error) {
   if (error instanceof ViewerError) return { kind: error.kind, words: error.words, detail: error.detail };
   if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError)
     return { kind: 'memory', words: 'There is not enough memory to decode this file.' };
+  if (error?.code === 'INVALID_ARGUMENT' && OF_DECODER.includes(error.element))
+    return { kind: 'network', words: WORDS.NETWORK, detail: error.message };
   const words = own(WORDS, error?.code) ?? 'Some of it says what cannot be.';
   return { kind: own(KINDS, error?.code) ?? 'damaged', words, detail: String(error?.message ?? error) };
 }
