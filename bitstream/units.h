@@ -40,7 +40,7 @@ inline constexpr unsigned kSkipBit = 64, kPrivateBit = 128, kExperimentBit = 32;
 
 /// What the payload of an application's unit begins with. registry.md
 using ApplicationId = std::array<std::uint8_t, 4>;
-/// Of what a whole stream decodes to; spec/registry.md.
+/// Corrections of what a whole stream decodes to; spec/registry.md.
 inline constexpr ApplicationId kPlenopticCorrections = {'S', 'L', 'F', 'p'};
 /// The type for applications of this project: a unit that whoever does not know it skips.
 inline constexpr auto kApplicationUnit = static_cast<UnitType>(kPrivateBit | kSkipBit);

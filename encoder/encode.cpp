@@ -151,6 +151,19 @@ Encoded with_choice(Encoded splats, const SurfaceReport& chosen) {
   return splats;
 }
 
+/// Photographs that are to be used, where there are some or something is made of them.
+Result<Done, InputError> check_photographs_of(const Capture& capture, std::span<const int> cameras,
+                                              Surface surface) {
+  const auto refused = [](const std::string& what) {
+    return InputError{Errc::kInvalidArgument, what};
+  };
+  if (!cameras.empty()) return Done{};
+  if (!capture.cameras.empty()) return refused("none of the capture's cameras is to be used");
+  if (surface == Surface::kAuto || surface == Surface::kGiven) return Done{};
+  return refused(std::string("surface ") + word_of(surface) +
+                 ": for photographs, and there are none");
+}
+
 Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
                                         std::span<const int> cameras,
                                         const std::vector<CameraTrust>& foreign,
@@ -158,11 +171,7 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
   Job job{capture, cameras, given, {}, {}, {}, {}};
   EncoderSettings& settings = job.settings;
   Encoded& encoded = job.encoded;
-  if (cameras.empty() && !capture.cameras.empty())
-    return InputError{Errc::kInvalidArgument, "none of the capture's cameras is to be used"};
-  if (cameras.empty() && settings.surface != Surface::kAuto && settings.surface != Surface::kGiven)
-    return InputError{Errc::kInvalidArgument, "surface " + std::string(word_of(settings.surface)) +
-                                                  ": for photographs, and there are none"};
+  SLF_CHECK(check_photographs_of(capture, cameras, settings.surface));
   if (cameras.empty()) fit_colours_alone(settings);
   settings.observe.threads = settings.fit.threads = settings.threads;
   encoded.cameras = foreign;

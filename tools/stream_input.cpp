@@ -8,6 +8,7 @@
 #include "slf/capture.h"
 #include "slf/frames.h"
 #include "slf/plenoptic.h"
+#include "slf/truncate.h"
 #include "tools/frame_source.h"
 #include "tools/heap.h"
 #include "tools/part_input.h"
@@ -133,6 +134,14 @@ Result<StreamFile, Failure> open_stream(const std::string& file, std::vector<std
   SLF_TRY(const std::size_t frames, count_frames(file, bytes, info, given.limits));
   if (units == UnitList::kNone) std::vector<UnitInfo>().swap(info.units);
   return StreamFile{std::move(bytes), std::move(info), frames};
+}
+
+Outcome check_frames(const std::string& file, const StreamFile& stream, const LimitOptions& given) {
+  if (stream.frames < 2) return Done{};
+  DecodeOptions all;
+  all.limits = given.limits;
+  SLF_CHECK(from(input_name(file), truncate(stream.bytes, all)));
+  return Done{};
 }
 
 DecodeOptions decode_options(const StreamInfo& info, const PartOptions& part,

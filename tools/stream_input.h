@@ -53,6 +53,10 @@ bool is_partial(const StreamInfo& info);
 Outcome check_whole(const std::string& file, const StreamInfo& info, const LimitOptions& given,
                     const CommonOptions& common);
 
+/// Every unit of every frame, of which read_stream() looks at the first: a verb that passes a file on
+/// without decoding it passes no damage on.
+Outcome check_frames(const std::string& file, const StreamFile& stream, const LimitOptions& given);
+
 /// For the library.
 DecodeOptions decode_options(const StreamInfo& info, const PartOptions& part,
                              const LimitOptions& given, const CommonOptions& common);

@@ -46,6 +46,7 @@ Outcome run_annotate(const AnnotateOptions& given) {
   SLF_CHECK(check_output(given.output, "annotate", std::array{".slf"}));
   SLF_TRY(const Annotations annotations, annotations_of(given));
   SLF_TRY(const StreamFile stream, read_stream(given.input, given.limits, given.common));
+  SLF_CHECK(check_frames(given.input, stream, given.limits));
   SLF_TRY(const auto annotated,
           from(input_name(given.input), annotate(stream.bytes, annotations, given.limits.limits)));
   SLF_CHECK(save(given.output, annotated.data(), annotated.size()));

@@ -164,6 +164,7 @@ Outcome run_html(const HtmlOptions& given) {
   LimitOptions limits = given.limits;
   limits.limits.max_stream_bytes = kMostFileBytes;
   SLF_TRY(const StreamFile input, read_stream(given.input, limits, given.common));
+  SLF_CHECK(check_frames(given.input, input, limits));
   const std::vector<std::uint8_t>& stream = input.bytes;
   const DecodeOptions options = decode_options(input.info, {}, given.limits, given.common);
   auto decoded = decode(stream, options);

@@ -81,6 +81,18 @@ TEST_F(CliFramesTest, MergeRefusesByName) {
   EXPECT_FALSE(exists("y.slf"));
 }
 
+TEST_F(CliFramesTest, DamageInALaterFrameIsNotPassedOn) {
+  std::string damaged = read("x.slf");
+  damaged[damaged.size() - 60] ^= 1;
+  write("damaged.slf", damaged);
+  expect_failure(slf("annotate damaged.slf --metres-per-unit 1 -o y.slf"), 4, "damaged.slf",
+                 "checksum");
+  if (const Ran page = slf("html damaged.slf -o y.html"); page.code != 6)  // 6: has no page
+    expect_failure(page, 4, "damaged.slf", "checksum");
+  EXPECT_FALSE(exists("y.slf"));
+  EXPECT_FALSE(exists("y.html"));
+}
+
 TEST_F(CliFramesTest, ARangeBeyondTheEndWritesNothing) {
   for (const char* verb : {"render x.slf --size 9x9 -o v%d.png", "decode x.slf -o v%d.ply"})
     expect_failure(slf(std::string(verb) + " --frames 1:9 --quiet"), 2, "x.slf",
