@@ -5,6 +5,7 @@
 #include "arrays.h"
 #include "captures.h"
 #include "failure.h"
+#include "inputs.h"
 #include "module.h"
 #include "reporter.h"
 #include "slf/frame_inputs.h"
@@ -15,13 +16,11 @@ namespace slf::python {
 namespace {
 
 /// Names and values, by the table of settings.
-EncoderSettings settings_of(const py::dict& options, int threads) {
+GivenSettings given_settings(const py::dict& options) {
   GivenSettings given;
   for (const auto& [name, value] : options)
     given.emplace_back(name.cast<std::string>(), value.cast<std::string>());
-  EncoderSettings settings = value_of(settings_from(given));
-  settings.threads = threads;
-  return settings;
+  return given;
 }
 
 py::list settings_table() {
@@ -40,18 +39,28 @@ std::string what_is_wrong(const std::string& name, const std::string& value) {
   return "is not a setting";
 }
 
-py::tuple encode_capture(const Capture& capture, const std::string& split, const py::dict& options,
-                         const Metadata& metadata, int threads, const py::object& progress) {
-  EncoderSettings settings = settings_of(options, threads);
-  settings.metadata = metadata;
-  Reporter reporter(progress);
+/// What encode() of Python has beside the capture.
+struct Wanted {
+  std::string split;
+  py::dict options;
+  Metadata metadata;  ///< behind that of the input
+  int threads = 0;
+  py::object progress;
+};
+
+/// @param path  of the capture; empty: it was in memory
+py::tuple encode_capture(const Capture& capture, const std::string& path, const Wanted& wanted) {
+  const GivenSettings given = given_settings(wanted.options);
+  EncoderSettings settings = value_of(settings_from(given));
+  settings.threads = wanted.threads;
+  const std::vector<int> cameras = input_cameras(capture, wanted.split);
+  check_photographs(cameras, given);
+  settings.metadata = input_metadata(capture, cameras, wanted.split, path);
+  settings.metadata.insert(settings.metadata.end(), wanted.metadata.begin(), wanted.metadata.end());
+  Reporter reporter(wanted.progress);
   const Progress report = reporter.progress();
   Encoded encoded;
-  reporter.run([&] {
-    std::vector<int> cameras;
-    if (!capture.cameras.empty()) cameras = value_of(split_cameras(capture, split));
-    encoded = value_of(encode(capture, cameras, settings, report));
-  });
+  reporter.run([&] { encoded = value_of(encode(capture, cameras, settings, report)); });
   using namespace py::literals;
   return py::make_tuple(
       bytes_of(encoded.stream),
@@ -60,8 +69,7 @@ py::tuple encode_capture(const Capture& capture, const std::string& split, const
                "warnings"_a = encoded.warnings));
 }
 
-py::tuple encode_path(const std::string& path, const std::string& split, const py::dict& options,
-                      const Metadata& metadata, int threads, const py::object& progress) {
+py::tuple encode_path(const std::string& path, const Wanted& wanted) {
   Capture capture;
   const auto refused = [&](const char* what) {
     return failure_of(InputError{Errc::kInvalidInput, path + what});
@@ -76,7 +84,7 @@ py::tuple encode_path(const std::string& path, const std::string& split, const p
     const py::gil_scoped_release no_gil;
     capture = value_of(load_capture(path, {.points = {}, .points_needed = false}));
   }
-  return encode_capture(capture, split, options, metadata, threads, progress);
+  return encode_capture(capture, path, wanted);
 }
 
 py::bytes pack_arrays(const Array<std::int32_t>& positions, const py::object& components, int bits,
@@ -115,13 +123,20 @@ py::bytes pack_arrays(const Array<std::int32_t>& positions, const py::object& co
 void add_encoding(py::module_& m) {
   m.def("settings", &settings_table);
   m.def("wrong_value", &what_is_wrong, py::arg("name"), py::arg("value"));
-  m.def("encode_path", &encode_path, py::arg("path"), py::arg("split"), py::arg("options"),
-        py::arg("metadata"), py::arg("threads"), py::arg("progress"));
+  m.def(
+      "encode_path",
+      [](const std::string& path, const std::string& split, const py::dict& options,
+         const Metadata& metadata, int threads, const py::object& progress) {
+        return encode_path(path, {split, options, metadata, threads, progress});
+      },
+      py::arg("path"), py::arg("split"), py::arg("options"), py::arg("metadata"),
+      py::arg("threads"), py::arg("progress"));
   m.def(
       "encode_capture",
       [](const py::object& capture, const std::string& split, const py::dict& options,
          const Metadata& metadata, int threads, const py::object& progress) {
-        return encode_capture(capture_of(capture), split, options, metadata, threads, progress);
+        return encode_capture(capture_of(capture), "",
+                              {split, options, metadata, threads, progress});
       },
       py::arg("capture"), py::arg("split"), py::arg("options"), py::arg("metadata"),
       py::arg("threads"), py::arg("progress"));

@@ -36,10 +36,12 @@ def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: _Value = None
     capture: a directory or file as docs/captures.md says, or a Capture. q: quantiser step in grey
     levels, 0.05 to 4096, smaller is better; None is the largest that costs held-out input images
     quality_loss dB of PSNR at most, or 16 where nothing can be held out. split: which images, as
-    `slf encode --split`. notes: points with text and guided tours, which viewers show, as a file or a
-    dict (docs/notes.md). settings: all that the program has, by its names with _ for -, as numbers,
-    words, True or False, None where it is not given: effort=3, target_bytes=50000,
-    surface='trained', grid_bits=9, quality_layers=3. slf.settings() lists them with their ranges.
+    `slf encode --split`; the file records it, and eval() takes none of them for held out. notes:
+    points with text and guided tours, which viewers show, as a file or a dict (docs/notes.md).
+    settings: all that the program has, by its names with _ for -, as numbers, words, True or False,
+    None where it is not given: effort=3, target_bytes=50000, surface='trained', grid_bits=9,
+    quality_layers=3. slf.settings() lists them with their ranges. Those for photographs are refused
+    of points alone, as by the program.
     progress(stage, fraction 0 to 1): now and then; what it raises ends the encoding, as an interrupt
     (Ctrl-C) does.
     Raises InputError, ArgumentError, ValueError.

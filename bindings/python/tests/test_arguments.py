@@ -71,7 +71,9 @@ class ArgumentsTest(unittest.TestCase):
         for name in ('surface', 'effort', 'block_strength', 'texture_bits', 'penalise_dc'):
             self.assertIn(name, table)
         for name, row in table.items():
-            if row['initial'] and not row['flag'] and not name.startswith(('texture', 'lambda', 'beta', 'iterations', 'functions', 'order')):
+            if name in ('splats', 'surface_seconds', 'surface_memory', 'photograph_pixels'):
+                self.refused(f'{name} is for photographs', slf.encode, disc(40), **{name: row['initial'] or int(row['low'])})
+            elif row['initial'] and not row['flag'] and not name.startswith(('texture', 'lambda', 'beta', 'iterations', 'functions', 'order')):
                 slf.encode(disc(40), **{'grid_bits': 5, name: row['initial']})
         fine, coarse = (slf.encode(disc(), q=1, grid_bits=7, klt=klt) for klt in ('off', 'joint'))
         self.assertNotEqual(fine.data, coarse.data)
