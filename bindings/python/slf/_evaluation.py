@@ -9,7 +9,8 @@ from typing import Any, Callable, Dict, Optional, Sequence, Union
 from . import _slf
 from ._arguments import MOST_BYTES, whole, wrong
 from ._encoding import in_bytes
-from ._field import _bytes, _info, _named
+from ._parts import info_of
+from ._sources import bytes_of, named
 from ._types import Capture, Evaluation, PictureQuality, PointQuality, Quality, Source
 
 
@@ -30,12 +31,12 @@ def eval(source: Source, capture: Union[str, 'os.PathLike[str]', Capture], *, sp
     if not angles or not all(math.isfinite(a) and 0 <= a <= 90 for a in angles):
         raise wrong('deltas', f'deltas are numbers of 0 to 90, not {deltas!r:.40}')
     given = in_bytes(capture) if isinstance(capture, Capture) else os.fspath(capture)
-    with _named(source):
-        data = _bytes(source)
+    with named(source):
+        data = bytes_of(source)
         pair = _slf.evaluate(data, given, split, angles, bool(images), bool(match_exposure),
                              bool(align_cameras), whole(threads, 'threads'),
                              whole(max_memory, 'max_memory', 0, MOST_BYTES),
-                             list(_info(_slf.info(data)).metadata), progress)
+                             list(info_of(data).metadata), progress)
     return Evaluation(*(None if one is None else _quality(one) for one in pair))
 
 

@@ -2,72 +2,29 @@
 """Decoding: what of a stream, its arrays, its pictures."""
 from __future__ import annotations
 
-import contextlib
 import functools
-import os
-from typing import Any, Callable, Dict, Iterator, Optional, Tuple, TypeVar, Union
+from typing import Any, Callable, Dict, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _slf
-from ._arguments import MOST_BYTES, MOST_PIXELS, colour, fixed, pixels, whole, wrong
-from ._errors import ArgumentError, DamagedError, Error, LimitError, UnsupportedError, of_source
+from ._arguments import MOST_PIXELS, colour, fixed, pixels, whole
 from ._notebook import Turntable, png
-from ._ranges import FileRanges, Ranges, UrlRanges, is_address, ranges_of, whole_of
+from ._parts import info_of, part_of, with_part
+from ._sources import Parts, bytes_of, in_parts, named, picklable
 from ._types import Box, Camera, Frame, Info, Source, Vector
 from ._view_map import directions_of, display_values, plotted
-
-
-Data = Union[bytes, bytearray, memoryview]
-
-
-def _bytes(source: Source) -> Data:
-    if isinstance(source, (bytes, bytearray, memoryview)):
-        return source
-    if is_address(source):
-        return whole_of(UrlRanges(str(source)))
-    if isinstance(source, (str, os.PathLike)):
-        with open(source, 'rb') as file:
-            return file.read()
-    read_all = getattr(source, 'read', None)
-    data = read_all() if callable(read_all) else None
-    if not isinstance(data, (bytes, bytearray, memoryview)):
-        raise TypeError(f'a path, an address, bytes or a binary file are needed, not {type(source).__name__}')
-    return data
-
-
-def _in_parts(source: Source) -> Union[Data, Ranges]:
-    """What no more is read of than is needed, where that can be."""
-    ranges = ranges_of(source)
-    if ranges is None:
-        return _bytes(source)
-    return ranges if not isinstance(ranges, UrlRanges) or ranges.ranges else whole_of(ranges)
-
-
-@contextlib.contextmanager
-def _named(source: Source) -> Iterator[None]:
-    """Errors of a stream name the path or the address that it is from."""
-    try:
-        yield
-    except (DamagedError, UnsupportedError, LimitError) as error:
-        if not isinstance(source, (str, os.PathLike)):
-            raise
-        raise of_source(error, os.fspath(source)) from None
-
-
-def _info(fields: Dict[str, Any]) -> Info:
-    return Info(**fields)
 
 
 def info(source: Source) -> Info:
     """Headers of a file, an address or bytes; nothing is decoded.
 
-    If a file has an index, as `slf encode` writes it, only its beginning is read: damage behind it
+    An open file is read as by read(). If a file has an index, as `slf encode` writes it, only its beginning is read: damage behind it
     is not seen. Raises DamagedError, UnsupportedError; OSError of a file.
     """
-    with _named(source):
-        return _info(_slf.info(_in_parts(source)))
+    with named(source), in_parts(source) as data:
+        return info_of(data)
 
 
 class LightField:
@@ -86,7 +43,7 @@ class LightField:
         return int(self._shape['points'])
 
     def __reduce__(self) -> Tuple[Callable[..., LightField], Tuple[Any, ...]]:
-        """Pickled as the bytes of its stream, and decoded again."""
+        """Pickled as the bytes that were read of its stream, and decoded again."""
         return self._made_by()
 
     def __repr__(self) -> str:
@@ -95,7 +52,7 @@ class LightField:
     @functools.cached_property
     def header(self) -> Info:
         """The grid of the whole stream; bits, step and origin are those of its own grid."""
-        return _info(self._field.info())
+        return Info(**self._field.info())
 
     @property
     def partial(self) -> bool:
@@ -221,21 +178,14 @@ class LightField:
         return png(self.render(self.orbit(0.1, size=(400, 400))))
 
 
-def _voxels(data: Union[Data, Ranges], region: Box) -> Tuple[int, ...]:
-    """A box of the world in voxels, as `slf decode --region` has it."""
-    header = _info(_slf.info(data))
-    corners = np.sort(np.asarray(region, float), axis=0)
-    if corners.shape != (2, 3) or not np.isfinite(corners).all():
-        raise ValueError('a region is two corners of three coordinates')
-    voxels = np.floor((corners - np.asarray(header.origin)) / header.step + 0.5)
-    return tuple(int(v) for v in np.clip(voxels, -1, 1 << 22).reshape(-1))
-
-
 def read(source: Source, *, levels: int = 0, groups: int = 0, layers: int = 0,
          max_bytes: int = 0, region: Optional[Box] = None, threads: int = 0,
          max_memory: int = 0) -> LightField:
     """Decodes a file, what an address (https://...) gives, or bytes, which are not to be changed after.
 
+    An open file is read from its beginning, wherever it stands, and stands there again afterwards; one
+    that cannot be sought in, as a pipe, from where it stands. The light field keeps what was read:
+    the file may be closed, changed or deleted.
     levels: of the octree, 1 to Info.bits, fewer are a coarser cloud; groups: of planes; layers: of
     quality, 1 to 4, fewer are a coarser quantiser; max_bytes: only units that end within them;
     region: two corners of a box of the world; 0 and None are all. threads: 0 is all cores.
@@ -247,50 +197,13 @@ def read(source: Source, *, levels: int = 0, groups: int = 0, layers: int = 0,
     """
     less = any((levels, groups, layers, max_bytes)) or region is not None
     part = part_of(levels, groups, layers, max_bytes, threads, max_memory)
-    with _named(source):
-        return with_part(_in_parts(source) if less else _bytes(source), part, region, _decoded)
+    with named(source):
+        if not less:
+            return with_part(bytes_of(source), part, region, _decoded)
+        with in_parts(source) as data:
+            return with_part(data, part, region, _decoded)
 
 
-def part_of(levels: int, groups: int, layers: int, max_bytes: int, threads: int,
-            max_memory: int) -> Dict[str, Any]:
-    """Arguments of read() for the extension module, without the region."""
-    return {
-        'levels': whole(levels, 'levels', 0, 21), 'groups': whole(groups, 'groups', 0, 16),
-        'layers': whole(layers, 'layers', 0, 4),
-        'max_bytes': whole(max_bytes, 'max_bytes', 0, MOST_BYTES),
-        'threads': whole(threads, 'threads'),
-        'max_memory': whole(max_memory, 'max_memory', 0, MOST_BYTES)}
-
-
-_Made = TypeVar('_Made')
-
-
-def with_part(data: Union[Data, Ranges], part: Dict[str, Any], region: Optional[Box],
-              make: Callable[[Union[Data, Ranges], Dict[str, Any]], _Made]) -> _Made:
-    """What is made of the data and the whole part; errors name the argument."""
-    part = {**part, 'region': None if region is None else _voxels(data, region)}
-    try:
-        return make(data, part)
-    except ArgumentError as error:
-        raise _of_part(error, data) from None
-
-
-def _of_part(error: ArgumentError, data: Union[Data, Ranges]) -> Error:
-    """Fewer levels or groups than the file has can be asked for: says how many it has."""
-    has = {'levels': 'bits', 'groups': 'groups'}.get(error.element)
-    if has is None:
-        return error
-    most = getattr(_info(_slf.info(data)), has)
-    return wrong(error.element, f'{error.element} of this file are 1 to {most}; 0 is all')
-
-
-def _decoded(data: Union[Data, Ranges], part: Dict[str, Any]) -> LightField:
+def _decoded(data: Parts, part: Dict[str, Any]) -> LightField:
     return LightField(_slf.Field(data, **part), lambda: _slf.Renderer(data, **part),
-                      lambda: (_decoded, (_kept(data), part)))
-
-
-def _kept(data: Union[Data, Ranges]) -> Data:
-    """Bytes that can be pickled."""
-    if isinstance(data, (FileRanges, UrlRanges)):
-        return whole_of(data)
-    return bytes(data) if isinstance(data, memoryview) else data
+                      lambda: (_decoded, (picklable(data), part)))

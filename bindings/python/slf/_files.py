@@ -7,8 +7,9 @@ from typing import Optional
 
 from . import _slf
 from ._arguments import whole, wrong
-from ._field import _bytes, _named, part_of, with_part
 from ._notes import Notes, notes_text
+from ._parts import part_of, with_part
+from ._sources import bytes_of, named
 from ._types import Box, Source
 
 FORMATS = ('ply', 'glb', 'spz', 'spz3', 'spz4', 'sog')
@@ -25,8 +26,8 @@ def truncate(source: Source, *, levels: int = 0, groups: int = 0, layers: int = 
     that meet it stay. Raises DamagedError, UnsupportedError, LimitError, ArgumentError; OSError.
     """
     part = part_of(levels, groups, layers, max_bytes, threads, max_memory)
-    with _named(source):
-        return with_part(_bytes(source), part, region,
+    with named(source):
+        return with_part(bytes_of(source), part, region,
                          lambda data, whole_part: _slf.truncate(data, **whole_part))
 
 
@@ -45,8 +46,8 @@ def annotate(source: Source, *, notes: Optional[Notes] = None, remove_notes: boo
         metadata = [('notes', notes_text(notes))]
     elif remove_notes:
         metadata = [('notes', None)]
-    with _named(source):
-        return _slf.annotate(_bytes(source), metadata, metres_per_unit)
+    with named(source):
+        return _slf.annotate(bytes_of(source), metadata, metres_per_unit)
 
 
 def export(source: Source, format: str = 'ply', *, degree: int = 3, size: float = 0.55,
@@ -69,6 +70,6 @@ def export(source: Source, format: str = 'ply', *, degree: int = 3, size: float 
         raise wrong('size', f'size is a number of 0.1 to 4, not {size!r:.40}')
     part = part_of(levels, groups, layers, max_bytes, threads, max_memory)
     order = whole(degree, 'degree', 0, 3)
-    with _named(source):
-        return with_part(_bytes(source), part, region, lambda data, whole_part: _slf.export(
+    with named(source):
+        return with_part(bytes_of(source), part, region, lambda data, whole_part: _slf.export(
             data, **whole_part, format=format, degree=order, size=float(size), axes=axes))

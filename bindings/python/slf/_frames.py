@@ -8,8 +8,11 @@ from typing import Any, Callable, Dict, Iterator, Optional, Sequence, Tuple, Uni
 
 from . import _slf
 from ._arguments import MOST_BYTES, whole
-from ._field import Data, LightField, _bytes, _kept, _named, _voxels
-from ._types import Box, Frame, Source
+from ._errors import ArgumentError
+from ._field import LightField
+from ._parts import info_of, of_part, voxels_of
+from ._sources import Data, bytes_of, named, picklable
+from ._types import Box, Frame, Info, Source
 
 
 class Frames(Sequence[LightField]):
@@ -47,12 +50,23 @@ class Frames(Sequence[LightField]):
         if not -len(self) <= operator.index(place) < len(self):
             raise IndexError(f'frame {place} is asked for, but there are {len(self)}, from 0 on')
         at = range(len(self))[place]
-        return LightField(self._frames.decode(at), lambda: self._pictures.renderer(at),
-                          lambda: (_frame, (_kept(self._data), self._part, at)), self.list[at])
+        try:
+            field = self._frames.decode(at)
+        except ArgumentError as error:
+            raise of_part(error, lambda: self._header(at)) from None
+        return LightField(field, lambda: self._pictures.renderer(at),
+                          lambda: (_frame, (picklable(self._data), self._part, at)), self.list[at])
+
+    def _header(self, at: int) -> Info:
+        """Headers of the frame that a group begins with are those of the group."""
+        while self.list[at].predicted and at > 0:
+            at -= 1
+        first = self.list[at]
+        return info_of(memoryview(self._data).cast('B')[first.offset:first.offset + first.bytes])
 
     def __reduce__(self) -> Tuple[Callable[..., Frames], Tuple[Any, ...]]:
         """Pickled as the bytes of its stream."""
-        return Frames, (_kept(self._data), self._part)
+        return Frames, (picklable(self._data), self._part)
 
     def __iter__(self) -> Iterator[LightField]:
         return (self[place] for place in range(len(self)))
@@ -81,7 +95,7 @@ def frames(source: Source, *, levels: int = 0, groups: int = 0, region: Optional
         'levels': whole(levels, 'levels', 0, 21), 'groups': whole(groups, 'groups', 0, 16),
         'threads': whole(threads, 'threads'),
         'max_memory': whole(max_memory, 'max_memory', 0, MOST_BYTES)}
-    with _named(source):
-        data = _bytes(source)
-        part['region'] = None if region is None else _voxels(data, region)
+    with named(source):
+        data = bytes_of(source)
+        part['region'] = None if region is None else voxels_of(data, region)
         return Frames(data, part)

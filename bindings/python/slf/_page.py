@@ -15,8 +15,9 @@ import numpy as np
 from . import _slf
 from ._arguments import colour, wrong
 from ._errors import make
-from ._field import LightField, read, _bytes
+from ._field import LightField, read
 from ._notes import Notes, notes_text
+from ._sources import bytes_of
 from ._types import Camera, Info, Source
 
 _PIXELS, _QUALITY = 480, 75  #: of the poster
@@ -50,7 +51,7 @@ def html(source: Source, *, title: str = '', camera: Optional[Camera] = None,
                                    ('metres_per_unit', metres_per_unit, 0, 1e12)]:
         _number(value, name, low, high)
     back = None if background is None else colour(background, 'background')
-    data = _bytes(source)
+    data = bytes_of(source)
     field = read(data, threads=threads, max_memory=max_memory)
     header = field.header
     if not chosen:

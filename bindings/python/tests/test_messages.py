@@ -52,6 +52,8 @@ class MessagesTest(unittest.TestCase):
         most = self.field.header.groups
         with self.assertRaisesRegex(ValueError, f'groups of this file are 1 to {most}'):
             slf.read(self.encoded.data, groups=most + 1)
+        with self.assertRaisesRegex(slf.ArgumentError, 'levels of this file are 1 to 7; 0 is all'):
+            slf.frames(self.encoded.data, levels=8)[0]
         with self.assertRaisesRegex(IndexError, 'frame 4 is asked for, but there are 1, from 0 on'):
             slf.frames(self.encoded.data)[4]
 
