@@ -45,6 +45,8 @@ void add_decoding(py::module_& m) {
       .def("components", checked(&Field::components))
       .def("normals", checked(&Field::normals))
       .def("radii", checked(&Field::radii))
+      .def("opacities", checked(&Field::opacities))
+      .def("covariances", checked(&Field::covariances))
       .def("mean_colours", checked(&Field::mean_colours))
       .def("radiance", checked(&Field::radiance), py::arg("points"), py::arg("directions"));
 }

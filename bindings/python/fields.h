@@ -74,7 +74,8 @@ class Stream {
         "format_version"_a = py::make_tuple(i.format_version >> 16, i.format_version & 0xffff),
         "profile"_a = kProfiles.at(i.profile), "bytes"_a = i.bytes, "points"_a = i.points,
         "functions"_a = i.functions, "components"_a = i.components, "slices"_a = i.slices,
-        "groups"_a = i.groups, "bits"_a = i.levels, "normal_bits"_a = i.normal_bits,
+        "groups"_a = i.groups, "layers"_a = i.layers, "bits"_a = i.levels,
+        "normal_bits"_a = i.normal_bits, "has_splats"_a = i.has_splats != 0,
         "origin"_a = py::make_tuple(i.origin[0], i.origin[1], i.origin[2]), "step"_a = i.step,
         "metres_per_unit"_a = i.metres_per_unit, "up"_a = kUp.at(i.up),
         "right_handed"_a = i.left_handed == 0,
@@ -179,7 +180,8 @@ class Field {
     using namespace py::literals;
     return py::dict(
         "points"_a = shape_.points, "components"_a = shape_.components, "bits"_a = shape_.levels,
-        "partial"_a = shape_.partial != 0, "step"_a = shape_.step,
+        "partial"_a = shape_.partial != 0, "has_splats"_a = shape_.has_splats != 0,
+        "step"_a = shape_.step,
         "origin"_a = py::make_tuple(shape_.origin[0], shape_.origin[1], shape_.origin[2]));
   }
 
@@ -202,6 +204,16 @@ class Field {
   py::array radii() const {
     return read<float>({}, [](auto* field, auto count, float* to, auto* error) {
       return slf_read_disc_radii(field, 0, count, to, 0, error);
+    });
+  }
+  py::array opacities() const {
+    return read<float>({}, [](auto* field, auto count, float* to, auto* error) {
+      return slf_read_splat_opacities(field, 0, count, to, 0, error);
+    });
+  }
+  py::array covariances() const {  // the upper triangle, row by row
+    return read<float>({6}, [](auto* field, auto count, float* to, auto* error) {
+      return slf_read_splat_covariances(field, 0, count, to, 0, error);
     });
   }
   py::array mean_colours() const {

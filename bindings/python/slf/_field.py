@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import functools
+import warnings
 from typing import Any, Callable, Dict, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _slf
-from ._arguments import MOST_PIXELS, colour, fixed, pixels, whole
+from ._arguments import MOST_PIXELS, colour, fixed, pixels, whole, wrong
 from ._notebook import Turntable, png
 from ._parts import info_of, part_of, with_part
 from ._sources import Parts, bytes_of, in_parts, named, picklable
 from ._types import Box, Camera, Frame, Info, Source, Vector
 from ._view_map import directions_of, display_values, plotted
+
+_TRIANGLE = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])  #: of the six values of a covariance
 
 
 def info(source: Source) -> Info:
@@ -70,6 +73,11 @@ class LightField:
         x, y, z = self._shape['origin']
         return (x, y, z)
 
+    @property
+    def has_splats(self) -> bool:
+        """Points are Gaussian splats, with opacities and covariances."""
+        return bool(self._shape['has_splats'])
+
     @functools.cached_property
     def positions(self) -> npt.NDArray[np.int32]:
         """Voxels, int32 [P, 3], Morton order."""
@@ -87,13 +95,46 @@ class LightField:
 
     @functools.cached_property
     def normals(self) -> npt.NDArray[np.float32]:
-        """Unit normals, float32 [P, 3], of either sign: coded, else estimated; 0 where unknown."""
+        """Unit normals, float32 [P, 3], of either sign: coded, else estimated; 0 where unknown.
+
+        Deprecated where has_splats is true and none are coded: an error from 2.0 on.
+        """
+        if self.has_splats and not self.header.normal_bits:
+            self._warn_of_discs('normals')
         return fixed(self._field.normals())
 
     @functools.cached_property
     def radii(self) -> npt.NDArray[np.float32]:
-        """Radii of the discs that a renderer draws, float32 [P], world units."""
+        """Radii of the discs that a renderer draws, float32 [P], world units.
+
+        Deprecated where has_splats is true: an error from 2.0 on.
+        """
+        if self.has_splats:
+            self._warn_of_discs('radii')
         return fixed(self._field.radii())
+
+    @staticmethod
+    def _warn_of_discs(name: str) -> None:
+        warnings.warn(f'{name} are of discs, and these points are splats: covariances have their extent', FutureWarning, stacklevel=4)
+
+    @functools.cached_property
+    def opacities(self) -> npt.NDArray[np.float32]:
+        """What a splat hides at its centre of what is behind it, float32 [P], 0 to 1. Raises ArgumentError without splats."""
+        self._check_splats('opacities')
+        return fixed(self._field.opacities())
+
+    @functools.cached_property
+    def covariances(self) -> npt.NDArray[np.float32]:
+        """Extents of splats about their points, float32 [P, 3, 3], world units squared. Raises ArgumentError without splats.
+
+        What does not fit a float is infinite or no number, and such a splat is not drawn.
+        """
+        self._check_splats('covariances')
+        return fixed(self._field.covariances()[:, _TRIANGLE])
+
+    def _check_splats(self, name: str) -> None:
+        if not self.has_splats:
+            raise wrong(name, f'{name} are of splats, and this light field holds none (has_splats)')
 
     @functools.cached_property
     def mean_colours(self) -> npt.NDArray[np.uint8]:
@@ -187,7 +228,7 @@ def read(source: Source, *, levels: int = 0, groups: int = 0, layers: int = 0,
     that cannot be sought in, as a pipe, from where it stands. The light field keeps what was read:
     the file may be closed, changed or deleted.
     levels: of the octree, 1 to Info.bits, fewer are a coarser cloud; groups: of planes; layers: of
-    quality, 1 to 4, fewer are a coarser quantiser; max_bytes: only units that end within them;
+    quality, 1 to Info.layers, fewer are a coarser quantiser; max_bytes: only units that end within them;
     region: two corners of a box of the world; 0 and None are all. threads: 0 is all cores.
     max_memory: bytes that decoding may take, 0 is 2**30.
     Where less than all is asked for, no more of a file is read than that takes, and of a server that

@@ -52,8 +52,8 @@ def with_part(data: Parts, part: Dict[str, Any], region: Optional[Box],
 
 
 def of_part(error: ArgumentError, header: Callable[[], Info]) -> Error:
-    """Fewer levels or groups than the file has can be asked for: says how many it has."""
-    has = {'levels': 'bits', 'groups': 'groups'}.get(error.element)
+    """Fewer levels, groups or layers than the file has can be asked for: says how many it has."""
+    has = {'levels': 'bits', 'groups': 'groups', 'layers': 'layers'}.get(error.element)
     if has is None:
         return error
     most = getattr(header(), has)

@@ -32,8 +32,10 @@ class Info:
     components: int  #: R, the coded ones
     slices: int
     groups: int  #: of planes: what read(groups=...) counts
+    layers: int  #: of quality, of the group that has most: what read(layers=...) counts
     bits: int  #: of the grid, levels of the octree: what read(levels=...) counts
     normal_bits: int  #: of coded normals; 0: none
+    has_splats: bool  #: points are Gaussian splats: opacities and covariances of the field
     origin: Vector  #: world position of voxel (0, 0, 0)
     step: float  #: world units from voxel to voxel
     metres_per_unit: float  #: 0: not known
