@@ -2,8 +2,10 @@
 """Checks of arguments: what is wrong is named, and nothing is rounded or cut."""
 from __future__ import annotations
 
+import math
+import numbers
 import operator
-from typing import Any, Tuple, Type, TypeVar
+from typing import Any, Tuple, Type, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +14,9 @@ from . import _errors
 
 MOST_BYTES = 2**64 - 1  #: of the C interface
 MOST_PIXELS = 16384  #: of a side
+FOV = (1, 170)  #: degrees, as the program has them
+ELEVATION = (-90, 90)
+MOST_METRES = 1e12  #: per unit of a world
 
 _Any = TypeVar('_Any', bound=np.generic)
 _Whole = TypeVar('_Whole', bound='np.integer[Any]')
@@ -33,9 +38,26 @@ def whole(value: Any, name: str, low: int = 0, high: int = 2**31 - 1) -> int:
     return number
 
 
+def number(value: Any, name: str, low: float = -math.inf, high: float = math.inf) -> Union[int, float]:
+    """A finite number of any type, of numpy's too, as one of Python's own."""
+    given = value[()] if isinstance(value, np.ndarray) and value.ndim == 0 else value
+    made: Union[int, float] = math.nan
+    if isinstance(given, numbers.Integral):
+        made = int(given)
+    elif isinstance(given, numbers.Real):
+        made = float(given)
+    if math.isfinite(made) and low <= made <= high:
+        return made
+    limits = f' of {low:g} to {high:g}' if math.isfinite(low) else ''
+    raise wrong(name, f'{name} is a number{limits}, not {value!r:.40}')
+
+
 def pixels(size: Tuple[int, int]) -> Tuple[int, int]:
     """Width and height of a picture."""
-    width, height = size
+    sides = tuple(size) if np.iterable(size) else ()
+    if len(sides) != 2:
+        raise wrong('size', f'size is width and height, not {size!r:.40}')
+    width, height = sides
     return whole(width, 'width', 1, MOST_PIXELS), whole(height, 'height', 1, MOST_PIXELS)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _slf
-from ._arguments import colours8, whole, whole_array, wrong
+from ._arguments import colours8, number, whole, whole_array, wrong
 from ._errors import ArgumentError, Error
 from ._notes import Notes, notes_text
 from ._types import Capture, Encoded, Vector
@@ -48,7 +48,7 @@ def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: _Value = None
     """
     options = dict(_option(name, value) for name, value in {'q': q, **settings}.items()
                    if value is not None)
-    whole(threads, 'threads')
+    threads = whole(threads, 'threads')
     metadata = [] if notes is None else [('notes', notes_text(notes))]
     try:
         if isinstance(capture, Capture):
@@ -64,6 +64,8 @@ def encode(capture: Union[str, 'os.PathLike[str]', Capture], *, q: _Value = None
 def _option(name: str, value: _Value) -> Tuple[str, str]:
     """Name and text as the program has them."""
     option = 'quality' if name == 'q' else name.replace('_', '-')
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
     if isinstance(value, (bool, np.bool_)):
         text = 'on' if value else 'off'
     elif isinstance(value, (float, np.floating)):
@@ -103,9 +105,14 @@ def pack(positions: npt.ArrayLike, components: Optional[npt.ArrayLike] = None, *
     voxels = whole_array(positions, 'positions', np.int32)
     planes = None if components is None else whole_array(components, 'components', np.int32)
     quantisers = None if steps is None else whole_array(steps, 'steps', np.uint32)
-    if not whole(bits, 'bits', 0, 21):
+    bits = whole(bits, 'bits', 0, 21)
+    if not bits:
         bits = max(1, int(voxels.max()).bit_length()) if voxels.size else 1
-    return _slf.pack(voxels, planes, bits, origin, step, quantisers,
+    corner = tuple(origin) if np.iterable(origin) else ()
+    if len(corner) != 3:
+        raise wrong('origin', f'origin is three numbers, not {origin!r:.40}')
+    x, y, z = (float(number(c, 'origin')) for c in corner)
+    return _slf.pack(voxels, planes, bits, (x, y, z), float(number(step, 'step')), quantisers,
                      [whole(group, 'groups', 0, 15) for group in groups], list(metadata),
                      whole(threads, 'threads'))
 

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _slf
-from ._arguments import MOST_PIXELS, colour, fixed, pixels, whole, wrong
+from ._arguments import ELEVATION, FOV, MOST_PIXELS, colour, fixed, number, pixels, whole, wrong
 from ._notebook import Turntable, png
 from ._parts import info_of, part_of, with_part
 from ._sources import Parts, bytes_of, in_parts, named, picklable
@@ -28,6 +28,12 @@ def info(source: Source) -> Info:
     """
     with named(source), in_parts(source) as data:
         return info_of(data)
+
+
+def check_camera(camera: Any) -> None:
+    """TypeError of what is none."""
+    if not all(hasattr(camera, name) for name in ('width', 'height', 'K', 'R', 't')):
+        raise TypeError(f'a Camera is needed, as orbit() gives it, not {type(camera).__name__}')
 
 
 class LightField:
@@ -173,18 +179,19 @@ class LightField:
         first call decodes once more, for the renderer, within the max_memory of read(). An interrupt
         (Ctrl-C) ends the drawing. Raises ValueError, InputError of a field without colours.
         """
-        if not all(hasattr(camera, name) for name in ('width', 'height', 'K', 'R', 't')):
-            raise TypeError(f'a Camera is needed, as orbit() gives it, not {type(camera).__name__}')
+        check_camera(camera)
         view = camera if size is None else camera.resized(size)
-        return self._renderer.render(view, colour(background, 'background'), view_dependent)
+        return self._renderer.render(view, colour(background, 'background'), bool(view_dependent))
 
     def orbit(self, turn: float, elevation: float = 20, size: Tuple[int, int] = (800, 800),
               fov: float = 30) -> Camera:
         """A camera on a circle around the cloud, all of it in view.
 
-        turn: 0 to 1; elevation and fov: degrees; size: width, height.
+        turn: 1 is all around; elevation: degrees, -90 to 90; fov: degrees, 1 to 170; size: width,
+        height. Raises ValueError.
         """
-        return Camera(**self._renderer.orbit(turn, elevation, *pixels(size), fov))
+        around, up = number(turn, 'turn'), number(elevation, 'elevation', *ELEVATION)
+        return Camera(**self._renderer.orbit(around, up, *pixels(size), number(fov, 'fov', *FOV)))
 
     def turntable(self, steps: int = 24, elevation: float = 20,
                   size: Tuple[int, int] = (400, 400)) -> Turntable:

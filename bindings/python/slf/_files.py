@@ -2,11 +2,10 @@
 """Files made of a file: a shorter one, and splats for other programs."""
 from __future__ import annotations
 
-import math
 from typing import Optional
 
 from . import _slf
-from ._arguments import whole, wrong
+from ._arguments import MOST_METRES, number, whole, wrong
 from ._notes import Notes, notes_text
 from ._parts import part_of, with_part
 from ._sources import bytes_of, named
@@ -46,8 +45,9 @@ def annotate(source: Source, *, notes: Optional[Notes] = None, remove_notes: boo
         metadata = [('notes', notes_text(notes))]
     elif remove_notes:
         metadata = [('notes', None)]
+    metres = None if metres_per_unit is None else float(number(metres_per_unit, 'metres_per_unit', 0, MOST_METRES))
     with named(source):
-        return _slf.annotate(bytes_of(source), metadata, metres_per_unit)
+        return _slf.annotate(bytes_of(source), metadata, metres)
 
 
 def export(source: Source, format: str = 'ply', *, degree: int = 3, size: float = 0.55,
@@ -66,10 +66,9 @@ def export(source: Source, format: str = 'ply', *, degree: int = 3, size: float 
         raise wrong('format', f'format is {", ".join(FORMATS)}, not {format!r:.40}')
     if axes not in AXES:
         raise wrong('axes', f'axes is {", ".join(AXES)}, not {axes!r:.40}')
-    if not (isinstance(size, (int, float)) and math.isfinite(size) and 0.1 <= size <= 4):
-        raise wrong('size', f'size is a number of 0.1 to 4, not {size!r:.40}')
+    deviation = float(number(size, 'size', 0.1, 4))
     part = part_of(levels, groups, layers, max_bytes, threads, max_memory)
     order = whole(degree, 'degree', 0, 3)
     with named(source):
         return with_part(bytes_of(source), part, region, lambda data, whole_part: _slf.export(
-            data, **whole_part, format=format, degree=order, size=float(size), axes=axes))
+            data, **whole_part, format=format, degree=order, size=deviation, axes=axes))

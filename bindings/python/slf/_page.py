@@ -13,16 +13,15 @@ from typing import Any, Dict, Optional, Tuple
 import numpy as np
 
 from . import _slf
-from ._arguments import colour, wrong
+from ._arguments import ELEVATION, FOV, MOST_METRES, colour, number, pixels
 from ._errors import make
-from ._field import LightField, read
+from ._field import LightField, check_camera, read
 from ._notes import Notes, notes_text
 from ._sources import bytes_of
-from ._types import Camera, Info, Source
+from ._types import UP, Camera, Info, Source
 
 _PIXELS, _QUALITY = 480, 75  #: of the poster
 _PAPER, _SLATE = (0xf3, 0xf1, 0xec), (0x19, 0x1a, 0x1d)  #: the viewer's own backgrounds by day and night
-_UP = ('+x', '-x', '+y', '-y', '+z', '-z', 'unknown')
 
 
 def html(source: Source, *, title: str = '', camera: Optional[Camera] = None,
@@ -47,15 +46,16 @@ def html(source: Source, *, title: str = '', camera: Optional[Camera] = None,
                    '', '', 0)
     orbit = _orbit(azimuth, elevation, fov)
     chosen = camera is not None or (azimuth, elevation, fov) != (None, None, None)
-    for name, value, low, high in [('autorotate', autorotate, -90, 90), ('speed', speed, 1 / 16, 16),
-                                   ('metres_per_unit', metres_per_unit, 0, 1e12)]:
-        _number(value, name, low, high)
+    autorotate, speed = number(autorotate, 'autorotate', -90, 90), number(speed, 'speed', 1 / 16, 16)
+    metres_per_unit = number(metres_per_unit, 'metres_per_unit', 0, MOST_METRES)
+    if camera is not None:
+        check_camera(camera)
     back = None if background is None else colour(background, 'background')
     data = bytes_of(source)
     field = read(data, threads=threads, max_memory=max_memory)
     header = field.header
     if not chosen:
-        own = _slf.named_view(list(header.metadata), _UP.index(header.up), _PIXELS, _PIXELS)
+        own = _slf.named_view(list(header.metadata), UP.index(header.up), _PIXELS, _PIXELS)
         camera = None if own is None else Camera(**own)
     name = title or _title(header, source)
     options: Dict[str, Any] = {'title': name, **orbit}
@@ -79,16 +79,10 @@ def html(source: Source, *, title: str = '', camera: Optional[Camera] = None,
     return re.sub(r'{{slf:(\w+)}}', lambda found: values.get(found[1], ''), template.read_text(encoding='utf-8'))
 
 
-def _number(value: Any, name: str, low: float, high: float) -> float:
-    if not (isinstance(value, (int, float, np.integer, np.floating)) and low <= value <= high):
-        raise wrong(name, f'{name} is a number of {low:g} to {high:g}, not {value!r:.40}')
-    return float(value)
-
-
 def _orbit(azimuth: Optional[float], elevation: Optional[float], fov: Optional[float]) -> Dict[str, float]:
-    return {'azimuth': _number(30 if azimuth is None else azimuth, 'azimuth', -360, 360),
-            'elevation': _number(20 if elevation is None else elevation, 'elevation', -90, 90),
-            'fov': _number(30 if fov is None else fov, 'fov', 1, 170)}
+    return {'azimuth': number(30 if azimuth is None else azimuth, 'azimuth', -360, 360),
+            'elevation': number(20 if elevation is None else elevation, 'elevation', *ELEVATION),
+            'fov': number(30 if fov is None else fov, 'fov', *FOV)}
 
 
 def _title(header: Info, source: Source) -> str:
@@ -102,8 +96,9 @@ def _title(header: Info, source: Source) -> str:
 def _view(camera: Camera) -> Dict[str, Any]:
     """The camera as the viewer reads it: rows right, down, forward, and where the eye is."""
     k, r, t = (np.asarray(m, float) for m in (camera.K, camera.R, camera.t))
-    return {'width': camera.width, 'height': camera.height, 'fx': k[0, 0], 'fy': k[1, 1], 'cx': k[0, 2],
-            'cy': k[1, 2], 'rotation': r.reshape(-1).tolist(), 'eye': (-r.T @ t).tolist()}
+    width, height = pixels((camera.width, camera.height))
+    return {'width': width, 'height': height, 'fx': k[0, 0], 'fy': k[1, 1], 'cx': k[0, 2], 'cy': k[1, 2],
+            'rotation': r.reshape(-1).tolist(), 'eye': (-r.T @ t).tolist()}
 
 
 def _square(camera: Camera) -> Camera:

@@ -12,12 +12,13 @@ from typing import IO, Optional, Sequence, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import pixels
+from ._arguments import FOV, number, pixels, wrong
 
 #: A path, an address (http:// or https://), bytes, or a file that is open for reading bytes.
 Source = Union[str, 'os.PathLike[str]', bytes, bytearray, memoryview, IO[bytes]]
 Vector = Tuple[float, float, float]
 Box = Tuple[Sequence[float], Sequence[float]]
+UP = ('+x', '-x', '+y', '-y', '+z', '-z', 'unknown')  #: by the numbers of slf::UpAxis
 
 
 @dataclasses.dataclass(frozen=True)
@@ -83,9 +84,10 @@ class Camera:
                 size: Tuple[int, int] = (800, 800), fov: float = 30) -> Camera:
         """A camera at `eye` that has `target` in its middle.
 
-        size: width and height; fov: degrees, of the larger of them.
+        size: width and height; fov: degrees, 1 to 170, of the larger of them. Raises ValueError.
         """
         width, height = pixels(size)
+        fov = number(fov, 'fov', *FOV)
         position = np.asarray(eye, float)
         forward = np.asarray(target, float) - position
         right = np.cross(forward, np.asarray(up, float))
@@ -126,7 +128,9 @@ class Capture:
     @property
     def up_index(self) -> int:
         """The number that slf::UpAxis has for it."""
-        return ['+x', '-x', '+y', '-y', '+z', '-z', 'unknown'].index(self.up)
+        if self.up not in UP:
+            raise wrong('up', f'up is {", ".join(UP)}, not {self.up!r:.40}')
+        return UP.index(self.up)
 
 
 @dataclasses.dataclass(frozen=True)
