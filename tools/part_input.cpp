@@ -62,9 +62,12 @@ std::optional<DecodedFile> decode_part_alone(const std::string& file, const Part
   if (!bytes) return std::nullopt;
   const StreamSource source{*bytes,
                             [&](std::uint64_t offset, auto to) { return reader.read(offset, to); }};
-  const auto beginning = read_beginning(source, given.limits);
+  auto beginning = read_beginning(source, given.limits);
   if (!beginning || !*beginning) return std::nullopt;
-  const StreamInfo& info = (*beginning)->info;
+  StreamInfo& info = (*beginning)->info;
+  auto metadata = read_metadata(source, **beginning, given.limits);
+  if (!metadata) return std::nullopt;
+  info.metadata = *std::move(metadata);
   if (given.strict && is_partial(info)) return std::nullopt;
   const double before = reader.seconds();
   Stopwatch watch;

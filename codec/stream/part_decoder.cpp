@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "codec/stream/metadata_behind.h"
 #include "codec/stream/stream_pieces.h"
 
 namespace slf {
@@ -74,9 +73,6 @@ Result<std::optional<StreamBeginning>> read_beginning(const StreamSource& source
   bytes.resize(static_cast<std::size_t>(head->bytes));
   SLF_TRY(beginning.info, read_info(bytes, limits));
   beginning.info.complete = true;
-  if (beginning.info.metadata.empty()) {
-    SLF_TRY(beginning.info.metadata, read_metadata_behind(source, bytes, limits));
-  }
   return std::optional(std::move(beginning));
 }
 

@@ -25,16 +25,21 @@ struct StreamSource {
 /// What stands before the first geometry of a stream that has an index and is as long as that says.
 struct StreamBeginning {
   std::vector<std::uint8_t> bytes;
-  StreamInfo info;  ///< units and bytes of slices are those of the beginning alone; metadata those
-                    ///< of the stream
+  StreamInfo info;  ///< units, bytes of slices and metadata are those of the beginning alone
 };
 
 /// @return nullopt: there is no such beginning, the stream is to be read whole
-/// @errors those of read_info, of the unit of metadata too, wherever it lies. kUnreadable.
-///         kLimitExceeded: longer than limits.max_memory
+/// @errors those of read_info. kUnreadable. kLimitExceeded: longer than limits.max_memory
 /// Thread-safe as far as the source is.
 Result<std::optional<StreamBeginning>> read_beginning(const StreamSource& source,
                                                       const DecodeLimits& limits = {});
+
+/// The metadata, which most streams have at their end: read where the index says.
+/// @return those of the beginning, where it has some; none: there are none
+/// @errors kUnreadable; those of a damaged unit; kOutOfRange index_unit_bytes: another unit is there
+/// Thread-safe as far as the source is.
+Result<Metadata> read_metadata(const StreamSource& source, const StreamBeginning& beginning,
+                               const DecodeLimits& limits = {});
 
 /// Reads what levels, groups, layers, max_bytes and region need, and decodes it: what decode() of
 /// the whole stream gives with the same options. What is not read is not checked: damage in it goes

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/stream/metadata_behind.h"
-
+// Metadata of a stream of which the beginning was read. Spec 7.7, 7.8.
 #include <vector>
 
 #include "base/error_place.h"
 #include "bitstream/index.h"
 #include "bitstream/metadata.h"
 #include "codec/scene_units.h"
+#include "slf/part_decoder.h"
 
 namespace slf {
 namespace {
@@ -27,16 +27,16 @@ Result<Metadata> read_at(const StreamSource& source, std::uint64_t offset, std::
 
 }  // namespace
 
-Result<Metadata> read_metadata_behind(const StreamSource& source,
-                                      std::span<const std::uint8_t> head,
-                                      const DecodeLimits& limits) {
-  SLF_TRY(const OpenStream opened, open_stream(head, limits));
+Result<Metadata> read_metadata(const StreamSource& source, const StreamBeginning& beginning,
+                               const DecodeLimits& limits) {
+  if (!beginning.info.metadata.empty()) return beginning.info.metadata;
+  SLF_TRY(const OpenStream opened, open_stream(beginning.bytes, limits));
   const Unit* listed = opened.units.first(UnitType::kIndex);
   if (listed == nullptr) return Metadata{};
   SLF_TRY(const Index index, read_index(*listed, opened.scene.stream.set));
   std::uint64_t offset = listed->offset + listed->bytes;
   for (const IndexEntry& entry : index.entries) {
-    if (entry.type == UnitType::kMetadata && offset >= head.size())
+    if (entry.type == UnitType::kMetadata && offset >= beginning.bytes.size())
       return read_at(source, offset, entry.bytes);
     offset += entry.bytes;
   }
