@@ -27,16 +27,18 @@ double extent_of(const Gaussians& splats) {
 
 class GaussianEncoder {
  public:
-  GaussianEncoder(const Gaussians& splats, const EncoderSettings& settings, const Vec3& origin)
+  GaussianEncoder(const Gaussians& splats, const EncoderSettings& settings)
       : splats_(splats),
         settings_(settings),
-        origin_(plus(origin, splats.origin)),
-        sizes_{typical_deviation(splats), room_of(splats), extent_of(splats)} {}
+        sizes_{typical_deviation(splats), 0, extent_of(splats)} {
+    sizes_.room = room_of(splats, sizes_.deviation);
+  }
 
   Result<double, InputError> code(double q, EncodedGaussians& out) const {
     SLF_TRY(LightField field,
             light_field_of(splats_, grid_step_of(q, sizes_, settings_), settings_.threads));
-    for (std::size_t k = 0; k < 3; ++k) field.header.grid.origin[k] += origin_[k];
+    for (std::size_t k = 0; k < 3; ++k) field.header.grid.origin[k] += splats_.origin[k];
+    SLF_CHECK(check_drawn(field.header.grid));
     field.header.metres_per_unit = settings_.metres_per_unit;
     CodingParameters parameters =
         gaussian_parameters(field.header, steps_of(q),
@@ -51,7 +53,6 @@ class GaussianEncoder {
  private:
   const Gaussians& splats_;
   const EncoderSettings& settings_;
-  Vec3 origin_;
   SplatSizes sizes_;
 };
 
@@ -103,12 +104,13 @@ Result<EncodedGaussians, InputError> encode_gaussians(Gaussians splats,
   if (settings.target_psnr > 0 && settings.target_bytes > 0)
     return InputError{Errc::kInvalidArgument, "target: bytes or PSNR, not both"};
   const std::size_t given = splats.size();
+  splats.origin = plus(splats.origin, origin);
   const Gaussians shown = that_show(std::move(splats));
   if (shown.size() == 0)
     return InputError{Errc::kInvalidInput, given == 0
                                                ? "has no splats"
                                                : "has no splat with an opacity of 1/255 or more"};
-  const GaussianEncoder encoder(shown, settings, origin);
+  const GaussianEncoder encoder(shown, settings);
   EncodedGaussians out;
   if (settings.target_bytes > 0) {
     SLF_CHECK(code_to_bytes(encoder, settings.target_bytes, out));

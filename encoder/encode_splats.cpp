@@ -82,7 +82,7 @@ Result<SplatTrial, InputError> tried(const SplatJob& job, int iterations, std::s
   if (trial.splats.size() == 0) return trial;
   auto file = coded_splats(trial.splats, job.capture, job.held_out, job.settings);
   if (!file && file.error().code != Errc::kInvalidInput) return file.error();
-  if (!file) return SplatTrial{};  // no grid holds them: nothing to choose
+  if (!file) return SplatTrial{};  // no file of them that can be drawn: nothing to choose
   trial.file = *file;
   trial.file.splats = trial.splats.size();
   return trial;

@@ -24,7 +24,7 @@ namespace {
 constexpr double kOpacityShare = 0.04, kShapeShare = 0.019, kPositionShare = 0.014;
 
 constexpr int kMostGridBits = 21;
-constexpr double kMostCrowded = 64;  // times finer, for room: copies of one splat get none
+constexpr double kMostCrowded = 64;  // times finer, for room
 
 constexpr std::array kLevelShares{1.0 / 6, 1.0 / 3, 3.0 / 4};
 
@@ -58,25 +58,30 @@ double typical_deviation(const Gaussians& splats) {
   return std::exp(double{*place});
 }
 
-double room_of(const Gaussians& splats) {
-  if (splats.size() == 1) return std::numeric_limits<double>::infinity();
+double room_of(const Gaussians& splats, double deviation) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
   const auto [low, high] = bounds_of(splats);
   const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-  if (!(extent > 0)) return 0;
-  const Grid finest{low, extent / ((1 << kMostGridBits) - 1), kMostGridBits};
-  std::vector<std::uint64_t> codes = codes_of(splats, finest);
+  const double finest = kPositionShare * kGaussianQ * deviation / kMostCrowded;
+  if (!(extent > 0) || !(finest > 0)) return kNone;
+  const int bits =
+      std::clamp(static_cast<int>(std::ceil(std::log2(extent / finest))), 1, kMostGridBits);
+  std::vector<std::uint64_t> codes = codes_of(splats, Grid{low, extent / ((1 << bits) - 1), bits});
   std::sort(codes.begin(), codes.end());
   // Neighbours in that order part where their codes first differ.
   std::array<std::size_t, kMostGridBits + 1> parted{};
+  std::size_t places = 1;
   for (std::size_t i = 1; i < codes.size(); ++i)
-    if (const std::uint64_t differ = codes[i] ^ codes[i - 1]; differ != 0)
-      ++parted[std::size_t(kMostGridBits - (static_cast<int>(std::bit_width(differ)) - 1) / 3)];
+    if (const std::uint64_t differ = codes[i] ^ codes[i - 1]; differ != 0) {
+      ++parted[std::size_t(bits - (static_cast<int>(std::bit_width(differ)) - 1) / 3)];
+      ++places;
+    }
   std::size_t occupied = 1;
-  for (int level = 0; level < kMostGridBits; ++level) {
+  for (int level = 0; level < bits; ++level) {
     occupied += parted[std::size_t(level)];
-    if (4 * occupied >= 3 * codes.size()) return std::ldexp(extent, -level);
+    if (4 * occupied >= 3 * places) return std::ldexp(extent, -level);
   }
-  return finest.step;
+  return finest;
 }
 
 double grid_step_of(double q, const SplatSizes& sizes, const EncoderSettings& settings) {

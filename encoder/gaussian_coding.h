@@ -28,9 +28,11 @@ Gaussians that_show(Gaussians splats);
 /// The median deviation along the middle axis, world units. There is a splat.
 double typical_deviation(const Gaussians& splats);
 
-/// Side of voxels of which splats occupy three for every four that they are: of coarser ones too
-/// few are free, and splats would be moved far away. 0: all are at one place.
-double room_of(const Gaussians& splats);
+/// Side of voxels of which splats occupy three for every four places that they have: of coarser
+/// ones too few are free, and splats would be moved far away. Places that the finest grid does not
+/// tell apart are one: copies stay crowded. Infinite: there is one place.
+/// @param deviation  typical_deviation()
+double room_of(const Gaussians& splats, double deviation);
 
 /// What a grid goes by.
 struct SplatSizes {

@@ -13,7 +13,10 @@ namespace slf {
 
 Result<Done, InputError> GaussianExtent::add(const Gaussians& shown) {
   if (shown.size() == 0) return Done{};
-  if (!first_) first_ = First{shown.degree, shown.up, {typical_deviation(shown), room_of(shown)}};
+  if (!first_) {
+    const double deviation = typical_deviation(shown);
+    first_ = First{shown.degree, shown.up, {deviation, room_of(shown, deviation)}};
+  }
   if (shown.degree != first_->degree)
     return invalid_input("splats have harmonics of degree " + std::to_string(shown.degree) +
                          ", and those of the frames before of degree " +
@@ -52,6 +55,7 @@ Result<GaussianFrameEncoder, InputError> GaussianFrameEncoder::open(const Gaussi
   SLF_TRY(const Grid local, extent.grid(q, settings));
   LightFieldHeader header = extent.header(local);
   for (std::size_t k = 0; k < 3; ++k) header.grid.origin[k] += origin[k];
+  SLF_CHECK(check_drawn(header.grid));
   header.metres_per_unit = settings.metres_per_unit;
   return GaussianFrameEncoder(std::move(header), local, q, settings, group, first);
 }

@@ -88,6 +88,11 @@ std::array<Vec3, 2> bounds_of(const Gaussians& splats) {
   return {low, high};
 }
 
+Result<Done, InputError> check_drawn(const Grid& grid) {
+  if (grid.fits_floats()) return Done{};
+  return invalid_input("splats: beyond 1e12, or all within 1e-12: no picture can be drawn");
+}
+
 Result<Grid, InputError> grid_around(const std::array<Vec3, 2>& bounds, double step,
                                      std::size_t splats) {
   const auto& [low, high] = bounds;
@@ -97,8 +102,7 @@ Result<Grid, InputError> grid_around(const std::array<Vec3, 2>& bounds, double s
   Grid grid{low, std::max(step, extent / ((1 << kMostBits) - 1)), 1};
   if (!(grid.step > 0)) grid.step = 1;
   while ((1 << grid.bits) - 1 < std::lround(extent / grid.step)) ++grid.bits;
-  if (!grid.fits_floats())
-    return invalid_input("splats: beyond 1e12, or all within 1e-12: no picture can be drawn");
+  SLF_CHECK(check_drawn(grid));
   while (std::uint64_t{1} << 3 * grid.bits < splats) ++grid.bits;
   return grid;
 }

@@ -11,6 +11,9 @@ namespace slf {
 /// Component units of a grey level, and of 1 in a logit or a logarithm: 2^n.
 inline constexpr int kHarmonicsShift = 5, kOpacityShift = 10, kShapeShift = 10;
 
+/// @errors kInvalidInput: a grid that pictures cannot hold
+Result<Done, InputError> check_drawn(const Grid& grid);
+
 /// Morton codes of the nearest voxels, in the order of the splats.
 std::vector<std::uint64_t> codes_of(const Gaussians& splats, const Grid& grid);
 

@@ -18,8 +18,8 @@ class SpooledInput {
   /// shell makes of <(command). Nothing: the name of a file.
   static std::optional<int> stream_of(const std::string& name);
 
-  /// All of such a stream, which messages call standard input. What it holds is told by its first bytes, and its name ends as readers
-  /// expect it: "standard input.ply".
+  /// All of such a stream, which messages call standard input. What it holds is told by its first
+  /// bytes, and its name ends as readers expect it: "standard input.ply".
   /// @errors kInputInvalid: not a PLY, LAS, E57, STL, GLB or a file of splats; kLimitExceeded: more
   ///         than 4 GiB; kWriteFailed: no room for it
   static Result<SpooledInput, Failure> read(int stream);

@@ -53,8 +53,8 @@ bool is_partial(const StreamInfo& info);
 Outcome check_whole(const std::string& file, const StreamInfo& info, const LimitOptions& given,
                     const CommonOptions& common);
 
-/// Every unit of every frame, of which read_stream() looks at the first: a verb that passes a file on
-/// without decoding it passes no damage on.
+/// Every unit of every frame, of which read_stream() looks at the first: a verb that passes a file
+/// on without decoding it passes no damage on.
 Outcome check_frames(const std::string& file, const StreamFile& stream, const LimitOptions& given);
 
 /// For the library.

@@ -122,8 +122,8 @@ Outcome export_points(const ExportOptions& given) {
 /// Splats in another format. Their turns are any, which SPZ 3 holds better.
 Outcome convert_splats(const ExportOptions& given, GaussianFile file, SplatFormat format) {
   if (given.mean || given.axes != "auto" || given.size_given)
-    return Failure{kUsage, "export: --mean, --axes and --size are for light fields, and " + given.input +
-                               " holds splats"};
+    return Failure{kUsage, "export: --mean, --axes and --size are for light fields, and " +
+                               given.input + " holds splats"};
   if (given.degree_given) keep_degree(file.gaussians, given.splats.degree);
   if (format == SplatFormat::kSpz && given.spz_version == 0) format = SplatFormat::kSpz3;
   const std::size_t count = file.gaussians.size();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files made of files: shorter ones, splats, and what a page has beside the stream.
+#include <cstdio>
 #include <map>
 
 #include "arrays.h"
@@ -45,17 +46,32 @@ SplatAxes axes_named(const std::string& name, SplatFormat format) {
   throw py::value_error("axes is auto, world, y-up or y-down");
 }
 
+/// @param origin  receives what positions are from, in the world
 std::vector<std::uint8_t> splats_of(const LightField& field, SplatFormat format,
-                                    const SplatSettings& settings) {
+                                    const SplatSettings& settings, Vec3& origin) {
   if (!field.header.has_basis)
     throw failure_of(InputError{Errc::kInvalidInput, "holds planes without a basis: no colours"});
   if (has_gaussians(field.header)) {
     Gaussians gaussians = value_of(gaussians_of(field, settings.threads));
     keep_degree(gaussians, settings.degree);
+    origin = gaussians.origin;
     return value_of(gaussian_file(std::move(gaussians), format, settings.threads));
   }
   const ViewMaps maps(field, settings.threads);
-  return value_of(splat_file(value_of(make_splats(maps, settings)), format, settings.threads));
+  const SplatCloud splats = value_of(make_splats(maps, settings));
+  origin = splats.origin;
+  return value_of(splat_file(splats, format, settings.threads));
+}
+
+/// As `slf export` does.
+void warn_of_origin(const Vec3& origin) {
+  if (origin == Vec3{0, 0, 0}) return;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "positions are from %.17g, %.17g, %.17g of the world, since floats cannot hold them",
+      origin[0], origin[1], origin[2]);
+  if (PyErr_WarnEx(PyExc_UserWarning, text, 1) < 0) throw py::error_already_set();
 }
 
 py::bytes export_splats(const py::object& source, const Part& part, const std::string& format,
@@ -68,8 +84,10 @@ py::bytes export_splats(const py::object& source, const Part& part, const std::s
   settings.axes = axes_named(axes, wanted);
   const LightField field = decoded(source, part);
   std::vector<std::uint8_t> bytes;
+  Vec3 origin{0, 0, 0};
   std::atomic<bool> ended = false;  // nobody looks at it: an interrupt waits for the splats
-  run_interruptibly(ended, [&] { bytes = splats_of(field, wanted, settings); });
+  run_interruptibly(ended, [&] { bytes = splats_of(field, wanted, settings, origin); });
+  warn_of_origin(origin);
   return bytes_of(bytes);
 }
 

@@ -23,7 +23,14 @@ Result<DepthMaps, InputError> DepthMaps::in(const std::filesystem::path& work,
   sha.update({reinterpret_cast<const std::uint8_t*>(plan.points_digest.data()),
               plan.points_digest.size()});
   for (const double x : {depth.resolution, depth.spacing, depth.tolerance}) add(x);
-  add_calibrations(capture.cameras, sha);
+  for (const Camera& camera : capture.cameras) {
+    for (const double x :
+         {double(camera.width), double(camera.height), camera.fx, camera.fy, camera.cx, camera.cy})
+      add(x);
+    add(camera.distortion);
+    add(camera.rotation);
+    add(camera.translation);
+  }
   auto directory = work / ("depth-" + hexadecimal(sha.finish()).substr(0, 16));
   SLF_CHECK(make_directory(directory));
   return DepthMaps(capture, scene, depth, std::move(directory));

@@ -84,7 +84,7 @@ Result<Done, InputError> check(const Capture& capture, const ScenePlan& plan, co
     return InputError{Errc::kInvalidInput,
                       "the capture has " + std::to_string(capture.cameras.size()) +
                           " cameras, that of the plan " + std::to_string(plan.capture_cameras)};
-  if (digest_of_photographs(capture) != plan.photographs_digest)
+  if (digest_of_photographs(capture, plan.origin) != plan.photographs_digest)
     return InputError{Errc::kInvalidInput,
                       "the capture's photographs or calibrations are not those of the plan"};
   if (plan.reduction.size() != plan.capture_cameras)

@@ -261,7 +261,7 @@ Result<ScenePlan, InputError> plan_scene(const Capture& capture, std::span<const
   plan.cameras.assign(cameras.begin(), cameras.end());
   std::sort(plan.cameras.begin(), plan.cameras.end());
   plan.capture_cameras = capture.cameras.size();
-  plan.photographs_digest = digest_of_photographs(capture);
+  plan.photographs_digest = digest_of_photographs(capture, capture.origin);
   plan.origin = capture.origin;
   plan.up = capture.up;
   if (cameras.empty() && capture.cloud.colours.empty())

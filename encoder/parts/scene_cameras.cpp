@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "base/hexadecimal.h"
+#include "base/sha256.h"
 #include "base/vec3.h"
 #include "capture/image_cache.h"
 #include "capture/photograph_size.h"
@@ -87,27 +88,26 @@ std::uint64_t cache_of(const ScenePlan& plan, const SceneWork& work) {
   return (work.memory - std::min(work.memory, cost_of(plan).memory)) / 2;
 }
 
-void add_calibrations(std::span<const Camera> cameras, Sha256& sha) {
+std::string digest_of_photographs(const Capture& capture, const Vec3& origin) {
+  Sha256 sha;
   const auto add = [&](const auto& value) {
     sha.update({reinterpret_cast<const std::uint8_t*>(&value), sizeof value});
   };
-  for (const Camera& camera : cameras) {
+  const Vec3 by = minus(capture.origin, origin);
+  for (const Camera& own : capture.cameras) {
+    const Camera camera = moved(own, by);
+    const auto add_float = [&](double x) { add(static_cast<float>(x) + 0.0F); };
     for (const double x :
          {double(camera.width), double(camera.height), camera.fx, camera.fy, camera.cx, camera.cy})
-      add(x);
-    add(camera.distortion);
-    add(camera.rotation);
-    add(camera.translation);
+      add_float(x);
+    for (const double x : camera.distortion) add_float(x);
+    for (const auto& row : camera.rotation)
+      for (const double x : row) add_float(x);
+    for (const double x : camera.translation) add_float(x);
   }
-}
-
-std::string digest_of_photographs(const Capture& capture) {
-  Sha256 sha;
-  add_calibrations(capture.cameras, sha);
   for (const std::filesystem::path& file : capture.image_files) {
     std::error_code ignored;
-    const std::uint64_t bytes = std::filesystem::file_size(file, ignored);
-    sha.update({reinterpret_cast<const std::uint8_t*>(&bytes), sizeof bytes});
+    add(static_cast<std::uint64_t>(std::filesystem::file_size(file, ignored)));
   }
   return hexadecimal(sha.finish());
 }

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "base/sha256.h"
 #include "encoder/parts/region.h"
 #include "slf/capture.h"
 #include "slf/scene.h"
@@ -30,11 +29,10 @@ std::vector<int> choose_reduction(const Capture& capture, std::span<const int> c
 /// @param cache  bytes of photographs that are kept
 Capture scene_cameras(const Capture& capture, const ScenePlan& plan, std::uint64_t cache);
 
-void add_calibrations(std::span<const Camera> cameras, Sha256& sha);
-
 /// SHA-256, hexadecimal, of what tells captures of other photographs apart without reading these:
-/// calibrations, and sizes of files.
-std::string digest_of_photographs(const Capture& capture);
+/// calibrations from an origin, as floats, since machines differ in last digits of doubles, and
+/// sizes of files.
+std::string digest_of_photographs(const Capture& capture, const Vec3& origin);
 
 /// Bytes of photographs to keep beside the work on a slice.
 std::uint64_t cache_of(const ScenePlan& plan, const SceneWork& work);

@@ -66,6 +66,7 @@ Gaussians gaussians_of(const SplatCloud& splats, UpAxis up) {
   Gaussians out;
   out.degree = splats.degree;
   out.up = up;
+  out.origin = rows.origin();
   out.positions = splats.positions;
   out.harmonics = splats.harmonics;
   for (std::size_t p = 0; p < splats.size(); ++p) {

@@ -126,7 +126,7 @@ void shift_gaussians(Gaussians& gaussians, const Vec3& by) {
     if (low != gaussians.positions.end()) extent = std::max(extent, (*high)[k] - (*low)[k]);
   }
   const double most = std::max({std::abs(by[0]), std::abs(by[1]), std::abs(by[2])});
-  if (gaussians.origin != Vec3{0, 0, 0} || (extent > 0 && most > double{kFar * extent})) {
+  if (gaussians.origin != Vec3{0, 0, 0} || most > double{kFar * (extent > 0 ? extent : 1)}) {
     gaussians.origin = plus(gaussians.origin, by);
     return;
   }

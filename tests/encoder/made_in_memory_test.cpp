@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "encoder/parts/scene_cameras.h"
 #include "encoder/plenoptic/plenoptic_coding.h"
 #include "slf/decoder.h"
 #include "slf/encode_gaussians.h"
@@ -162,6 +163,17 @@ TEST(MadeInMemory, CamerasThatTheCaptureDoesNotHaveAreRefused) {
     };
     EXPECT_EQ(refusal(plan_frames(1, load, {}, {})), "frame 0: " + text);
   }
+}
+
+TEST(PlansOfScenes, KnowPhotographsWhereverACaptureIsReadFrom) {
+  const Vec3 far = {500000, 4000000, 100};
+  Capture whole = four_points_one_camera(), alone = whole;
+  whole.origin = far;                               // as it is read with its cloud
+  alone.cameras[0] = moved(alone.cameras[0], far);  // and without
+  EXPECT_EQ(digest_of_photographs(whole, far), digest_of_photographs(alone, far));
+  Capture other = alone;
+  other.cameras[0].translation[2] += 0.5;
+  EXPECT_NE(digest_of_photographs(other, far), digest_of_photographs(alone, far));
 }
 
 TEST(MadeInMemory, PlenopticCloudsNeedNoPropertiesAndAreCheckedElse) {

@@ -176,7 +176,7 @@ TEST(FarGaussians, FramesFromDifferentOriginsAreOnOneGrid) {
     EXPECT_LT(distance(far, *gaussians_of(*decoder.decode(f))), 2 * encoded->grid.step) << f;
 }
 
-TEST(CrowdedGaussians, StayWithinAVoxelOrTwoOfWhereTheyWere) {
+TEST(CrowdedGaussians, StayInTheirCube) {
   for (const std::size_t count : {std::size_t{500}, std::size_t{4000}}) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> even(0, 1);
@@ -189,8 +189,36 @@ TEST(CrowdedGaussians, StayWithinAVoxelOrTwoOfWhereTheyWere) {
     const auto file = encode_gaussians(fog, {});
     ASSERT_TRUE(file);
     const Gaussians back = decoded(file->stream);
+    for (const Vec3& at : places(back))
+      for (const double x : at) EXPECT_TRUE(x > -0.1 && x < 1.1) << count << ": " << x;
     EXPECT_LT(distance(back, fog), 0.35) << count;
   }
+}
+
+TEST(CrowdedGaussians, CopiesDoNotMakeTheGridOfAllFiner) {
+  const auto bits_with = [](std::size_t copies) {
+    Gaussians splats = ball(1000);
+    for (std::size_t p = 0; p < copies; ++p) splats.positions[p] = splats.positions[0];
+    return encode_gaussians(splats, {})->grid.bits;
+  };
+  EXPECT_EQ(bits_with(500), bits_with(0));
+}
+
+TEST(FarGaussians, BeyondWhatPicturesHoldAreRefused) {
+  Gaussians lost = ball();
+  lost.origin = {1e13, 0, 0};
+  EXPECT_FALSE(encode_gaussians(lost, {}));
+  EXPECT_FALSE(encode_gaussians(ball(), {}, {0, 1e13, 0}));
+}
+
+TEST(FarGaussians, ATargetIsOfPicturesFromWhereTheyAre) {
+  EncoderSettings settings;
+  settings.target_psnr = 35;
+  const auto near_file = encode_gaussians(ball(), settings);
+  const auto far_file = encode_gaussians(ball(), settings, kFar);
+  ASSERT_TRUE(near_file && far_file);
+  EXPECT_NEAR(near_file->q, far_file->q, 0.05 * near_file->q);
+  EXPECT_TRUE(far_file->warning.empty()) << far_file->warning;
 }
 
 }  // namespace
