@@ -15,6 +15,7 @@
 #include "encoder/gaussian_planes.h"
 #include "geometry/morton.h"
 #include "lightfield/keep_splats.h"
+#include "slf/encode_gaussians.h"
 
 namespace slf {
 namespace {

@@ -7,6 +7,7 @@
 #include "tools/eval_subject.h"
 #include "tools/output.h"
 #include "tools/plenoptic_quality.h"
+#include "tools/splat_input.h"
 #include "tools/verb.h"
 
 namespace slf::tools {
