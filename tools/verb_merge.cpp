@@ -63,9 +63,31 @@ Outcome check_frames_decode(std::span<const std::uint8_t> stream, const DecodeLi
   return Done{};
 }
 
+/// What a file says of its views.
+Result<Metadata, Failure> views_of(const PartStream& part) {
+  SLF_TRY(StreamInfo info, from(part.name, read_info(part.bytes)));
+  std::erase_if(info.metadata,
+                [](const auto& pair) { return !pair.first.starts_with("plenoptic"); });
+  return std::move(info.metadata);
+}
+
+/// Metadata of the first part are those of all, and name the views of a cloud.
+Outcome check_same_views(const std::vector<PartStream>& parts) {
+  SLF_TRY(const Metadata first, views_of(parts.front()));
+  for (const PartStream& part : parts) {
+    SLF_TRY(const Metadata own, views_of(part));
+    if (!own.empty() && own != first)
+      return Failure{kInputInvalid,
+                     part.name + ": properties or positions of its views are not those of " +
+                         parts.front().name};
+  }
+  return Done{};
+}
+
 Outcome merge_frames(const MergeOptions& given, const std::vector<PartStream>& parts) {
   if (given.allow_missing)
     return Failure{kUsage, "merge: --allow-missing is of scenes: frames follow each other"};
+  SLF_CHECK(check_same_views(parts));
   const JoinOrder order = given.append ? JoinOrder::kAsGiven : JoinOrder::kByNumber;
   SLF_TRY(const auto stream, from("merge", join_frames(parts, order, memory_limit(given))));
   SLF_CHECK(check_frames_decode(stream, given.limits.limits, given.common));

@@ -45,6 +45,21 @@ class PlenopticFramesTest : public CliTest {
   }
 };
 
+TEST_F(PlenopticFramesTest, FilmsWithOtherNamesOfViewsAreNotJoined) {
+  ASSERT_EQ(slf("encode s_%d.ply --frames 0:1 -o a.slf --quiet").code, 0);
+  const Ran same = slf("merge --append a.slf a.slf -o m.slf --quiet");
+  EXPECT_EQ(same.code, 0) << same.err;
+  for (int f = 0; f < 2; ++f) {
+    std::string renamed = cloud(f);
+    for (std::size_t at = renamed.find(" r1\n"); at != renamed.npos; at = renamed.find(" r1\n"))
+      renamed.replace(at, 4, " q1\n");
+    write("n_" + std::to_string(f) + ".ply", renamed);
+  }
+  ASSERT_EQ(slf("encode n_%d.ply -o n.slf --quiet").code, 0);
+  expect_failure(slf("merge --append a.slf n.slf -o n2.slf"), 4, "n.slf", "views are not those");
+  EXPECT_FALSE(exists("n2.slf"));
+}
+
 TEST_F(PlenopticFramesTest, ComeBackExactWithTheirProperties) {
   const Ran coded = slf("encode s_%d.ply -o x.slf --group 3 --rate 10 --json");
   ASSERT_EQ(coded.code, 0) << coded.err;
