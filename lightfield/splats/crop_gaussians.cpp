@@ -25,17 +25,6 @@ bool is_inside(const Vec3& position, const WorldBox& box) {
   return true;
 }
 
-double extent_of(const Gaussians& splats) {
-  double extent = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto [low, high] =
-        std::minmax_element(splats.positions.begin(), splats.positions.end(),
-                            [k](const auto& a, const auto& b) { return a[k] < b[k]; });
-    extent = std::max(extent, double{(*high)[k]} - double{(*low)[k]});
-  }
-  return extent;
-}
-
 /// The median deviation along the middle axis, world units.
 double typical_deviation(const Gaussians& splats) {
   std::vector<float> middle;

@@ -116,17 +116,23 @@ void move_gaussians(Gaussians& gaussians, const AxisRows& rows, double scale) {
   }
 }
 
-void shift_gaussians(Gaussians& gaussians, const Vec3& by) {
-  constexpr float kFar = 1 << 10;  // extents: 14 bits are left of a float's 24
-  float extent = 0;
+double extent_of(const Gaussians& gaussians) {
+  double extent = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto [low, high] =
         std::minmax_element(gaussians.positions.begin(), gaussians.positions.end(),
                             [k](const auto& a, const auto& b) { return a[k] < b[k]; });
-    if (low != gaussians.positions.end()) extent = std::max(extent, (*high)[k] - (*low)[k]);
+    if (low == gaussians.positions.end()) return 0;
+    extent = std::max(extent, double{(*high)[k]} - double{(*low)[k]});
   }
+  return extent;
+}
+
+void shift_gaussians(Gaussians& gaussians, const Vec3& by) {
+  constexpr double kFar = 1 << 10;  // extents: 14 bits are left of a float's 24
+  const double extent = extent_of(gaussians);
   const double most = std::max({std::abs(by[0]), std::abs(by[1]), std::abs(by[2])});
-  if (gaussians.origin != Vec3{0, 0, 0} || most > double{kFar * (extent > 0 ? extent : 1)}) {
+  if (gaussians.origin != Vec3{0, 0, 0} || most > kFar * (extent > 0 ? extent : 1)) {
     gaussians.origin = plus(gaussians.origin, by);
     return;
   }

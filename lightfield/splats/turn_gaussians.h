@@ -27,6 +27,9 @@ class HarmonicTurn {
 /// mirror, too.
 void move_gaussians(Gaussians& gaussians, const AxisRows& rows, double scale);
 
+/// The longest side of the box of all places; 0: there are none.
+double extent_of(const Gaussians& gaussians);
+
 /// Moves all: their positions, or the origin where it is not 0, or floats would lose digits.
 void shift_gaussians(Gaussians& gaussians, const Vec3& by);
 
