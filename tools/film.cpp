@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 
 #include "slf/jpeg.h"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::uint32_t kHasIndex = 0x10, kKeyFrame = 0x10;  // flags
 constexpr std::uint32_t kAnyQuality = 0xFFFFFFFF;
+constexpr std::uint64_t kAround = 32;  // bytes beside a picture, in its chunk and in the index
 
 class RiffWriter {
  public:
@@ -94,7 +96,6 @@ Outcome Film::add(const Image& image) {
                                std::to_string(image.height) + ", the first " +
                                std::to_string(width_) + " x " + std::to_string(height_)};
   SLF_TRY(auto picture, from("film", encode_jpeg(image, kJpegQuality)));
-  constexpr std::uint64_t kAround = 32;  // bytes beside a picture, in its chunk and in the index
   if (bytes_ + picture.size() + kAround > kMostBytes)
     return Failure{kUsage,
                    "film: it has more than 1 GiB; show fewer frames or take a smaller --size"};
@@ -105,27 +106,39 @@ Outcome Film::add(const Image& image) {
   return Done{};
 }
 
-std::vector<std::uint8_t> Film::avi(double rate) const {
-  Shape shape{width_, height_, static_cast<std::uint32_t>(pictures_.size()), 0,
-              static_cast<std::uint32_t>(std::lround(1000 * std::clamp(rate, 0.001, 1000.0)))};
+bool Film::has_room(const FilmTiming& timing) const {
+  std::uint64_t bytes = 0;
+  for (std::size_t i = 0; i < pictures_.size() && bytes <= kMostBytes; ++i)
+    bytes += timing.shown[i] * (pictures_[i].size() + kAround);
+  return bytes <= kMostBytes;
+}
+
+std::vector<std::uint8_t> Film::avi(const FilmTiming& timing) const {
+  Shape shape{
+      width_, height_, std::accumulate(timing.shown.begin(), timing.shown.end(), 0U), 0,
+      static_cast<std::uint32_t>(std::lround(1000 * std::clamp(timing.rate, 0.001, 1000.0)))};
   for (const auto& picture : pictures_)
     shape.largest = std::max(shape.largest, static_cast<std::uint32_t>(picture.size()));
   RiffWriter out;
   const std::size_t file = out.begin("RIFF", "AVI ");
   write_header(out, shape);
   const std::size_t movie = out.begin("LIST", "movi");
-  std::vector<std::size_t> places;  // from "movi" on
-  for (const auto& picture : pictures_) {
-    places.push_back(out.size() - movie);
-    const std::size_t chunk = out.begin("00dc");
-    out.append(picture);
-    out.end(chunk);
-  }
+  struct Place {
+    std::size_t at, bytes;  // from "movi" on
+  };
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < pictures_.size(); ++i)
+    for (std::uint32_t again = 0; again < timing.shown[i]; ++again) {
+      places.push_back({out.size() - movie, pictures_[i].size()});
+      const std::size_t chunk = out.begin("00dc");
+      out.append(pictures_[i]);
+      out.end(chunk);
+    }
   out.end(movie);
   const std::size_t index = out.begin("idx1");
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (const Place& place : places) {
     out.four("00dc");
-    out.all(kKeyFrame, places[i], pictures_[i].size());
+    out.all(kKeyFrame, place.at, place.bytes);
   }
   out.end(index);
   out.end(file);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/failure.h"
+#include "tools/film_timing.h"
 
 namespace slf {
 struct Image;
@@ -25,8 +26,10 @@ class Film {
   /// image: RGB, of the size of the first. Its JPEG is that of `-o x.jpg`, byte for byte.
   /// @errors another size; more than kMostBytes in all. The film is as before.
   Outcome add(const Image& image);
-  /// rate: pictures a second, 0.001 .. 1000; others are the nearest of these
-  std::vector<std::uint8_t> avi(double rate) const;
+  /// Are pictures that are repeated so within kMostBytes in all?
+  bool has_room(const FilmTiming& timing) const;
+  /// timing: of as many pictures as were added
+  std::vector<std::uint8_t> avi(const FilmTiming& timing) const;
 
   std::size_t size() const { return pictures_.size(); }
 

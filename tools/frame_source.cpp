@@ -82,14 +82,14 @@ Outcome for_each_frame(const char* verb, const std::string& extension, std::stri
   return Done{};
 }
 
-double pictures_a_second(const PartOptions& part, std::size_t count) {
-  constexpr double kRate = 30;
-  if (!part.source || !part.source->decoder || count < 2) return kRate;
+std::vector<double> times_of_last(const PartOptions& part, std::size_t count) {
+  if (!part.source || !part.source->decoder) return {};
   const std::vector<FrameInfo>& frames = part.source->decoder->frames();
   const auto last = static_cast<std::size_t>(part.frame);
-  if (count > last + 1) return kRate;
-  const double seconds = frames[last].time - frames[last + 1 - count].time;
-  return seconds > 0 ? static_cast<double>(count - 1) / seconds : kRate;
+  if (count > last + 1) return {};
+  std::vector<double> times;
+  for (std::size_t f = last + 1 - count; f <= last; ++f) times.push_back(frames[f].time);
+  return times;
 }
 
 nlohmann::ordered_json frame_json(const FrameInfo& f, const std::optional<std::uint64_t>& points) {

@@ -37,9 +37,9 @@ Result<std::string, Failure> all_frames(const std::string& file, PartOptions& pa
 Outcome for_each_frame(const char* verb, const std::string& extension, std::string& output,
                        PartOptions& part, const std::function<Outcome()>& run);
 
-/// How fast the last `count` frames are to be shown that a verb has run for, by their times; 30
-/// where these do not tell.
-double pictures_a_second(const PartOptions& part, std::size_t count);
+/// Seconds of the last `count` frames that a verb has run for; none where pictures are not of
+/// frames.
+std::vector<double> times_of_last(const PartOptions& part, std::size_t count);
 
 /// [F] of each frame; nothing where its headers do not say it.
 using PointsOfFrames = std::vector<std::optional<std::uint64_t>>;

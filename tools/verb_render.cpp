@@ -191,8 +191,17 @@ Outcome run_film(RenderOptions& given) {
   std::string number = "%d";  // of a frame: no file has it
   SLF_CHECK(
       for_each_frame("render", ".png", number, given.part, [&] { return run_render(given); }));
-  const double rate = pictures_a_second(given.part, given.film->size());
-  const std::vector<std::uint8_t> bytes = given.film->avi(rate);
+  const std::size_t pictures = given.film->size();
+  const std::vector<double> times = times_of_last(given.part, pictures);
+  FilmTiming timing = timing_of(pictures, times);
+  if (!given.film->has_room(timing)) {
+    warn(
+        "film: frames last unlike long, and it has no room to repeat pictures: it shows each "
+        "as long as any other",
+        given.common.quiet);
+    timing = even_timing(pictures, times);
+  }
+  const std::vector<std::uint8_t> bytes = given.film->avi(timing);
   return save(given.output, bytes.data(), bytes.size());
 }
 

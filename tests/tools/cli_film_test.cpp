@@ -113,6 +113,35 @@ TEST_F(CliFilmTest, FilmOfFramesHasTheirPicturesAndTheirRate) {
   EXPECT_NE(avi.pictures[0], avi.pictures[1]);
 }
 
+TEST_F(CliFilmTest, FramesThatLastUnlikeLongAreShownAtTheirTimes) {
+  FrameEncoder encoder(test::frame_parameters(8, 1), 16);
+  const std::vector<double> times = {0.5, 0.6, 0.7, 1.1, 1.15};
+  test::Bytes bytes;
+  const auto fields = test::drawn_fields_of(test::Moves::kAppears, static_cast<int>(times.size()));
+  for (std::size_t t = 0; t < times.size(); ++t) {
+    const auto frame = encoder.add(fields[t], times[t]);
+    ASSERT_TRUE(frame);
+    bytes.insert(bytes.end(), frame->begin(), frame->end());
+  }
+  write("y.slf", {bytes.begin(), bytes.end()});
+  ASSERT_EQ(slf("render y.slf --size 32x32 -o v.avi --quiet").code, 0);
+  ASSERT_EQ(slf("render y.slf --frames 0:4 --size 32x32 -o v%d.jpg --quiet").code, 0);
+  const Avi avi = read_avi(read("v.avi"));
+  ASSERT_EQ(avi.frames, avi.pictures.size());
+  EXPECT_EQ(avi.pictures, avi.index_pictures);
+  for (std::size_t t = 0; t < times.size(); ++t) {
+    const double picture = (times[t] - times[0] + 1e-6) * avi.rate / avi.scale;
+    EXPECT_EQ(avi.pictures.at(static_cast<std::size_t>(picture)),
+              read("v" + std::to_string(t) + ".jpg"))
+        << t;
+  }
+  // A part that is even needs no picture twice.
+  ASSERT_EQ(slf("render y.slf --frames 0:2 --size 32x32 -o v.avi --quiet").code, 0);
+  const Avi even = read_avi(read("v.avi"));
+  EXPECT_EQ(even.pictures.size(), 3u);
+  EXPECT_EQ(even.rate, 10 * even.scale);
+}
+
 TEST_F(CliFilmTest, WithoutAChoiceHasAllFrames) {
   ASSERT_EQ(slf("render x.slf --frames 0:2 --size 32x32 -o v.avi --quiet").code, 0);
   const Ran ran = slf("render x.slf --size 32x32 -o all.avi");
