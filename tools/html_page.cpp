@@ -52,13 +52,20 @@ nlohmann::ordered_json view_json(const Camera& camera) {
 
 std::string html_page(std::string_view page, const std::string& title, const Posters& posters,
                       const nlohmann::ordered_json& options, std::span<const std::uint8_t> stream) {
-  std::map<std::string, std::string> values = {
+  const std::map<std::string, std::string> values = {
       {"title", escaped_html(title)},
       {"poster", posters.day.empty() ? "data:," : posters.day},
       {"night", night_source(posters.night)},
       {"options", script_json(options)}};
-  values["file"] = base64(stream.data(), stream.size());  // moved, which those of a list are not
-  return filled_template(page, values);
+  // The file goes straight into the page: as a value it would be in memory once more.
+  constexpr std::string_view kFile = "{{slf:file}}";
+  const std::size_t place = page.find(kFile);
+  std::string out = filled_template(page.substr(0, place), values);
+  if (place == std::string_view::npos) return out;
+  const std::string rest = filled_template(page.substr(place + kFile.size()), values);
+  out.reserve(out.size() + base64_size(stream.size()) + rest.size());
+  append_base64(out, stream.data(), stream.size());
+  return out.append(rest);
 }
 
 }  // namespace slf::tools

@@ -67,11 +67,16 @@ std::string escaped_html(std::string_view text) {
 }
 
 std::string base64(const void* data, std::size_t size) {
+  std::string out;
+  out.reserve(base64_size(size));
+  append_base64(out, data, size);
+  return out;
+}
+
+void append_base64(std::string& out, const void* data, std::size_t size) {
   constexpr const char* kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   const auto* bytes = static_cast<const std::uint8_t*>(data);
-  std::string out;
-  out.reserve(base64_size(size));
   for (std::size_t i = 0; i < size; i += 3) {
     const std::size_t count = size - i < 3 ? size - i : 3;
     std::uint32_t three = 0;
@@ -79,7 +84,6 @@ std::string base64(const void* data, std::size_t size) {
     for (std::size_t k = 0; k < 4; ++k)
       out += k <= count ? kDigits[three >> (18 - 6 * k) & 63] : '=';
   }
-  return out;
 }
 
 }  // namespace slf::tools

@@ -21,6 +21,7 @@ std::string escaped_html(std::string_view text);
 
 /// RFC 4648, with padding.
 std::string base64(const void* data, std::size_t size);
+void append_base64(std::string& out, const void* data, std::size_t size);
 constexpr std::size_t base64_size(std::size_t size) { return (size + 2) / 3 * 4; }
 
 }  // namespace slf::tools

@@ -8,7 +8,6 @@
 #include "slf/capture.h"
 #include "slf/frames.h"
 #include "slf/plenoptic.h"
-#include "slf/truncate.h"
 #include "tools/frame_source.h"
 #include "tools/heap.h"
 #include "tools/part_input.h"
@@ -138,9 +137,19 @@ Result<StreamFile, Failure> open_stream(const std::string& file, std::vector<std
 
 Outcome check_frames(const std::string& file, const StreamFile& stream, const LimitOptions& given) {
   if (stream.frames < 2) return Done{};
+  const std::string name = input_name(file);
   DecodeOptions all;
   all.limits = given.limits;
-  SLF_CHECK(from(input_name(file), truncate(stream.bytes, all)));
+  SLF_TRY(const auto frames, from(name, list_frames(stream.bytes, given.limits)));
+  // What is checked is copied: some groups at a time, not the whole file a second time.
+  const std::size_t some = stream.bytes.size() / 16;
+  for (std::size_t first = 0, f = 0; f < frames.size(); ++f) {
+    const bool last = f + 1 == frames.size();
+    const bool enough = frames[f].offset + frames[f].bytes - frames[first].offset >= some;
+    if (!last && (frames[f + 1].predicted || !enough)) continue;
+    SLF_CHECK(from(name, truncate_frames(stream.bytes, first, f, all)));
+    first = f + 1;
+  }
   return Done{};
 }
 

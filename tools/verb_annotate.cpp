@@ -3,6 +3,8 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "slf/annotate.h"
 #include "slf/notes.h"
@@ -47,14 +49,17 @@ Outcome run_annotate(const AnnotateOptions& given) {
   SLF_TRY(const Annotations annotations, annotations_of(given));
   SLF_TRY(const StreamFile stream, read_stream(given.input, given.limits, given.common));
   SLF_CHECK(check_frames(given.input, stream, given.limits));
-  SLF_TRY(const auto annotated,
-          from(input_name(given.input), annotate(stream.bytes, annotations, given.limits.limits)));
-  SLF_CHECK(save(given.output, annotated.data(), annotated.size()));
+  SLF_TRY(const AnnotatedPieces annotated,
+          from(input_name(given.input),
+               annotate_in_pieces(stream.bytes, annotations, given.limits.limits)));
+  std::vector<std::span<const std::byte>> pieces;
+  for (const auto& piece : annotated.pieces) pieces.push_back(std::as_bytes(piece));
+  SLF_CHECK(save(given.output, pieces));
   if (given.common.json)
-    return print(
-        nlohmann::ordered_json{{"bytes_before", stream.bytes.size()}, {"bytes", annotated.size()}});
+    return print(nlohmann::ordered_json{{"bytes_before", stream.bytes.size()},
+                                        {"bytes", annotated.bytes()}});
   if (!given.common.quiet)
-    std::fprintf(stderr, "%s bytes, %s before\n", grouped(annotated.size()).c_str(),
+    std::fprintf(stderr, "%s bytes, %s before\n", grouped(annotated.bytes()).c_str(),
                  grouped(stream.bytes.size()).c_str());
   return Done{};
 }

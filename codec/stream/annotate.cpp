@@ -76,9 +76,9 @@ Result<Bytes> annotate_still(std::span<const std::uint8_t> stream, const Annotat
   return bytes;
 }
 
-/// Appends a frame that begins a group.
-Result<Done> append_annotated(const FrameUnits& frame, const OpenStream& opened,
-                              const Annotations& annotations, Bytes& bytes) {
+/// A frame that begins a group.
+Result<Bytes> annotated_frame(const FrameUnits& frame, const OpenStream& opened,
+                              const Annotations& annotations) {
   SLF_TRY(const Annotated now, annotated(opened, annotations));
   Bytes rest;
   for (const UnitView& unit : now.units) append_unit(rest, unit.type, unit.payload);
@@ -86,37 +86,71 @@ Result<Done> append_annotated(const FrameUnits& frame, const OpenStream& opened,
   FrameHeader header = frame.header;
   header.frame_bytes = static_cast<std::uint32_t>(rest.size());
   SLF_TRY(const auto payload, of_what_was_read(frame_payload(std::move(header), frame.vectors)));
-  bytes.insert(bytes.end(), kSignature.begin(), kSignature.end());
+  Bytes bytes(kSignature.begin(), kSignature.end());
   SLF_CHECK(of_what_was_read(append_sequence(bytes, now.set)));
   append_unit(bytes, UnitType::kFrame, payload);
   bytes.insert(bytes.end(), rest.begin(), rest.end());
-  return Done{};
+  return bytes;
+}
+
+/// The bytes of a vector stay where they are when it is moved.
+void append_written(AnnotatedPieces& out, Bytes bytes) {
+  out.written.push_back(std::move(bytes));
+  out.pieces.emplace_back(out.written.back());
 }
 
 }  // namespace
 
-Result<Bytes> annotate(std::span<const std::uint8_t> stream, const Annotations& annotations,
-                       const DecodeLimits& limits) {
+std::size_t AnnotatedPieces::bytes() const {
+  std::size_t sum = 0;
+  for (const auto& piece : pieces) sum += piece.size();
+  return sum;
+}
+
+Result<AnnotatedPieces> annotate_in_pieces(std::span<const std::uint8_t> stream,
+                                           const Annotations& annotations,
+                                           const DecodeLimits& limits) {
   const double metres = annotations.metres_per_unit.value_or(0);
   if (!(metres >= 0 && std::isfinite(metres)))
     return Error{Errc::kInvalidArgument, "metres_per_unit"};
   if (stream.size() > limits.max_stream_bytes) return Error{Errc::kLimitExceeded, "stream"};
   SLF_TRY(const std::vector<FrameUnits> frames, split_frames(stream, limits.max_memory));
-  if (!frames.front().moves()) return annotate_still(stream, annotations, limits);
-  Bytes bytes;
-  bytes.reserve(stream.size());
-  for (const FrameUnits& frame : frames) {
-    const auto own = stream.subspan(static_cast<std::size_t>(frame.offset),
-                                    static_cast<std::size_t>(frame.bytes));
-    bool says = false;
-    if (!frame.header.predicted()) {
-      SLF_TRY(const OpenStream opened, open_stream(own, limits));
-      SLF_TRY(const Metadata metadata, collect_metadata(opened.units));
-      says = frame.offset == 0 || !metadata.empty() || annotations.metres_per_unit;
-      if (says) SLF_CHECK(append_annotated(frame, opened, annotations, bytes));
-    }
-    if (!says) bytes.insert(bytes.end(), own.begin(), own.end());
+  AnnotatedPieces out;
+  if (!frames.front().moves()) {
+    SLF_TRY(Bytes bytes, annotate_still(stream, annotations, limits));
+    append_written(out, std::move(bytes));
+    return out;
   }
+  std::size_t kept = 0, end = 0;  // what stays and is no piece yet
+  const auto append_kept = [&] {
+    if (end > kept) out.pieces.push_back(stream.subspan(kept, end - kept));
+  };
+  for (const FrameUnits& frame : frames) {
+    const auto begin = static_cast<std::size_t>(frame.offset),
+               bytes = static_cast<std::size_t>(frame.bytes);
+    if (!frame.header.predicted()) {
+      SLF_TRY(const OpenStream opened, open_stream(stream.subspan(begin, bytes), limits));
+      SLF_TRY(const Metadata metadata, collect_metadata(opened.units));
+      if (begin == 0 || !metadata.empty() || annotations.metres_per_unit) {
+        append_kept();
+        SLF_TRY(Bytes written, annotated_frame(frame, opened, annotations));
+        append_written(out, std::move(written));
+        kept = begin + bytes;
+      }
+    }
+    end = begin + bytes;
+  }
+  append_kept();
+  return out;
+}
+
+Result<Bytes> annotate(std::span<const std::uint8_t> stream, const Annotations& annotations,
+                       const DecodeLimits& limits) {
+  SLF_TRY(AnnotatedPieces all, annotate_in_pieces(stream, annotations, limits));
+  if (all.pieces.size() == 1 && all.written.size() == 1) return std::move(all.written.front());
+  Bytes bytes;
+  bytes.reserve(all.bytes());
+  for (const auto& piece : all.pieces) bytes.insert(bytes.end(), piece.begin(), piece.end());
   return bytes;
 }
 

@@ -34,4 +34,22 @@ Result<std::vector<std::uint8_t>> annotate(std::span<const std::uint8_t> stream,
                                            const Annotations& annotations,
                                            const DecodeLimits& limits = {});
 
+/// A stream as pieces that follow each other: those that stay are of the stream it was made of, so
+/// that a long film is not in memory twice.
+struct AnnotatedPieces {
+  std::vector<std::vector<std::uint8_t>> written;     ///< what is new
+  std::vector<std::span<const std::uint8_t>> pieces;  ///< of the stream and of `written`
+
+  AnnotatedPieces() = default;
+  AnnotatedPieces(AnnotatedPieces&&) = default;  // a copy's pieces would be of the first's bytes
+  AnnotatedPieces& operator=(AnnotatedPieces&&) = default;
+  std::size_t bytes() const;
+};
+
+/// The bytes of annotate(). The stream has to outlive them. Frames that say nothing of themselves
+/// stay where they are; a light field that does not move is written anew.
+Result<AnnotatedPieces> annotate_in_pieces(std::span<const std::uint8_t> stream,
+                                           const Annotations& annotations,
+                                           const DecodeLimits& limits = {});
+
 }  // namespace slf

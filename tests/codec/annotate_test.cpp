@@ -134,6 +134,32 @@ TEST(Spec_7_8_Annotate, WhatNoReaderTakesIsRefused) {
     EXPECT_EQ(std::string(annotate(stream, {{}, metres}).error().element), "metres_per_unit");
 }
 
+TEST(AnnotateTest, WhatStaysOfAFilmIsNotCopied) {
+  const auto fields = fields_of(Moves::kShift, 6);
+  const Bytes film = joined(coded_frames(fields, frame_parameters(8), 3));
+  const auto is_of_film = [&](const std::span<const std::uint8_t>& piece) {
+    return piece.data() >= film.data() && piece.data() < film.data() + film.size();
+  };
+  for (const std::optional<double> metres : {std::optional<double>(), std::optional(2.0)}) {
+    Annotations said = notes("[]");
+    said.metres_per_unit = metres;
+    const auto pieces = annotate_in_pieces(film, said);
+    const auto whole = annotate(film, said);
+    ASSERT_TRUE(pieces && whole);
+    Bytes all;
+    std::size_t copied = 0;
+    for (const auto& piece : pieces->pieces) {
+      all.insert(all.end(), piece.begin(), piece.end());
+      copied += is_of_film(piece) ? 0 : piece.size();
+    }
+    EXPECT_EQ(all, *whole);
+    EXPECT_EQ(pieces->bytes(), whole->size());
+    EXPECT_EQ(pieces->written.size(), metres ? 2u : 1u);
+    EXPECT_LT(copied, film.size());
+    EXPECT_NE(copied, 0u);
+  }
+}
+
 TEST(Spec_7_8_Annotate, EveryCutAndEveryChangedByteIsAnErrorOrAStreamThatDecodesAlike) {
   const Bytes still = *pack(frame_of(Moves::kNothing, 0), frame_parameters(12));
   const Bytes moving = joined(coded_frames(fields_of(Moves::kShift, 2), frame_parameters(12), 2));

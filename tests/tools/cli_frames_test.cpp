@@ -93,6 +93,22 @@ TEST_F(CliFramesTest, DamageInALaterFrameIsNotPassedOn) {
   EXPECT_FALSE(exists("y.html"));
 }
 
+TEST_F(CliFramesTest, DamageInAnyOfManyGroupsIsNotPassedOn) {
+  const auto fields = test::drawn_fields_of(test::Moves::kShift, 40);
+  const auto frames = test::coded_frames(fields, test::frame_parameters(8, 1), 2);
+  const test::Bytes whole = test::joined(frames);
+  std::size_t end = 0;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    end += frames[f].size();
+    if (f % 3 != 0) continue;
+    std::string damaged(whole.begin(), whole.end());
+    damaged[end - 60] ^= 1;
+    write("damaged.slf", damaged);
+    expect_failure(slf("annotate damaged.slf --metres-per-unit 1 -o y.slf"), 4, "damaged.slf",
+                   "checksum");
+  }
+}
+
 TEST_F(CliFramesTest, ARangeBeyondTheEndWritesNothing) {
   for (const char* verb : {"render x.slf --size 9x9 -o v%d.png", "decode x.slf -o v%d.ply"})
     expect_failure(slf(std::string(verb) + " --frames 1:9 --quiet"), 2, "x.slf",
