@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <string>
 
+#include "base/shortest.h"
+#include "base/vec3.h"
 #include "capture/check_capture.h"
 #include "slf/capture.h"
 
@@ -21,7 +23,18 @@ Result<Done, InputError> check_count(const char* name, std::size_t count, std::s
                " " + what);
 }
 
-Result<Done, InputError> check_points(const PointCloud& cloud, const std::string& of) {
+/// Nothing beyond can be drawn, and squares of it are no finite floats.
+Result<Done, InputError> check_place(const std::string& what, const Vec3& place,
+                                     const Vec3& origin) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!(std::abs(place[k] + origin[k]) <= Grid::kMostCoordinate))
+      return wrong(what + " has a coordinate of " + shortest(place[k] + origin[k]) +
+                   ": places are within 1e12 of 0");
+  return Done{};
+}
+
+Result<Done, InputError> check_points(const PointCloud& cloud, const std::string& of,
+                                      const Vec3& origin) {
   const std::size_t points = cloud.positions.size();
   SLF_CHECK(check_count((of + "normals").c_str(), cloud.normals.size(), points, "points"));
   SLF_CHECK(check_count((of + "colours").c_str(), cloud.colours.size(), points, "points"));
@@ -31,6 +44,9 @@ Result<Done, InputError> check_points(const PointCloud& cloud, const std::string
   for (std::size_t p = 0; p < points; ++p)
     if (!is_finite(cloud.positions[p]) || (!cloud.normals.empty() && !is_finite(cloud.normals[p])))
       return wrong(of + "point " + std::to_string(p) + " has a value that is not finite");
+  for (std::size_t p = 0; p < points; ++p)
+    SLF_CHECK(
+        check_place(of + "point " + std::to_string(p), to_double(cloud.positions[p]), origin));
   return Done{};
 }
 
@@ -62,8 +78,11 @@ Result<Done, InputError> check_capture(const Capture& capture, std::span<const i
     if (camera < 0 || static_cast<std::size_t>(camera) >= count)
       return InputError{Errc::kInvalidArgument, "camera " + std::to_string(camera) +
                                                     ": the capture has " + std::to_string(count)};
-  for (const Camera& camera : capture.cameras)
-    SLF_CHECK(check_camera(camera, "camera '" + camera.name + "'"));
+  for (const Camera& camera : capture.cameras) {
+    const std::string name = "camera '" + camera.name + "'";
+    SLF_CHECK(check_camera(camera, name));
+    SLF_CHECK(check_place(name, camera.centre(), capture.origin));
+  }
   const std::size_t images =
       capture.images.empty() ? capture.image_files.size() : capture.images.size();
   if (images != count)
@@ -74,8 +93,8 @@ Result<Done, InputError> check_capture(const Capture& capture, std::span<const i
   SLF_CHECK(check_count("gains", capture.gains.size(), count, "cameras"));
   for (std::size_t i = 0; i < capture.images.size(); ++i)
     SLF_CHECK(check_image(capture.images[i], "camera '" + capture.cameras[i].name + "'"));
-  SLF_CHECK(check_points(capture.cloud, ""));
-  SLF_CHECK(check_points(capture.mesh.vertices, "mesh: "));
+  SLF_CHECK(check_points(capture.cloud, "", capture.origin));
+  SLF_CHECK(check_points(capture.mesh.vertices, "mesh: ", capture.origin));
   return check_faces(capture.mesh);
 }
 

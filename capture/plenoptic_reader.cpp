@@ -230,6 +230,10 @@ Result<PlenopticCloud, InputError> read_plenoptic(const std::filesystem::path& f
     SLF_TRY(PlenopticRows rows, read_rows(name, element, *columns, body));
     if (rows.positions.empty()) return refused_cloud(name, "no points");
     SLF_TRY(cloud.grid, grid_of(name, rows, *columns, options));
+    if (!cloud.grid.fits_floats())
+      return refused_cloud(name,
+                           "its coordinates go beyond 1e12, or are all within 1e-12 of each "
+                           "other: no picture could be drawn of it");
     warn_of_rows(name, *columns, rows, said);
     sort_rows(std::move(rows), cloud);
     if (cloud.merged > 0)

@@ -34,10 +34,8 @@ Result<Box, InputError> bounding_box(const PointCloud& cloud) {
 
 double cell_of(double x, double min, double step) { return std::floor((x - min) / step + 0.5); }
 
-}  // namespace
-
-Result<Grid, InputError> choose_grid(const Box& box, std::size_t points, int bits,
-                                     double voxel_size) {
+/// Spec 6.1 (informative there).
+Result<Grid, InputError> grid_in(const Box& box, std::size_t points, int bits, double voxel_size) {
   Grid grid;
   grid.origin = box.min;
   const double extent = box.largest_extent();
@@ -57,6 +55,22 @@ Result<Grid, InputError> choose_grid(const Box& box, std::size_t points, int bit
   if (grid.step > 0) return grid;
   if (points > 1) return one_voxel;
   grid.step = 1;  // one point: any will do
+  return grid;
+}
+
+Result<Done, InputError> check_shown(const Grid& grid) {
+  if (grid.fits_floats()) return Done{};
+  return invalid_cloud(
+      "it goes beyond 1e12 world units, or a voxel is below 1e-12: no picture "
+      "could be drawn of it");
+}
+
+}  // namespace
+
+Result<Grid, InputError> choose_grid(const Box& box, std::size_t points, int bits,
+                                     double voxel_size) {
+  SLF_TRY(Grid grid, grid_in(box, points, bits, voxel_size));
+  SLF_CHECK(check_shown(grid));
   return grid;
 }
 
@@ -132,6 +146,7 @@ Result<VoxelCloud, InputError> voxelise(const PointCloud& cloud, int bits, doubl
   SLF_TRY(const Grid grid, grid_of(cloud, bits, voxel_size));
   VoxelCloud voxels = voxelise_on(cloud, grid);
   voxels.grid = moved(grid, cloud.origin);
+  SLF_CHECK(check_shown(voxels.grid));
   return voxels;
 }
 

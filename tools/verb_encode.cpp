@@ -285,6 +285,8 @@ void add_encode(CLI::App& program, Run& run) {
       o->frames.dry_run = o->scene.dry_run;
       const auto stream = SpooledInput::stream_of(o->encode.capture);
       if (!stream) return encode_any(*o);
+      if (SpooledInput::stream_of(o->encode.points) == stream)
+        return Failure{kUsage, "encode: CAPTURE and --points both want standard input"};
       SLF_TRY(const SpooledInput input, SpooledInput::read(*stream));
       o->encode.capture = input.path();
       Outcome done = encode_any(*o);

@@ -51,16 +51,24 @@ Outcome check_decodes(const MergeOptions& given, const std::vector<PartStream>& 
   return failure_of(decoded.error(), "merge");
 }
 
-/// Every frame: damage that no checksum shows is in one of them.
-Outcome check_frames_decode(std::span<const std::uint8_t> stream, const DecodeLimits& limits,
-                            const CommonOptions& common) {
-  DecodeOptions options;
-  options.limits = limits;
-  options.threads = common.threads;
-  SLF_TRY(FrameDecoder decoder, from("merge", FrameDecoder::open(stream, options)));
+Outcome check_frames_of(const std::string& name, std::span<const std::uint8_t> stream,
+                        const DecodeOptions& options) {
+  SLF_TRY(FrameDecoder decoder, from(name, FrameDecoder::open(stream, options)));
   for (std::size_t f = 0; f < decoder.frames().size(); ++f)
-    if (const auto field = decoder.decode(f); !field) return failure_of(field.error(), "merge");
+    if (const auto field = decoder.decode(f); !field) return failure_of(field.error(), name);
   return Done{};
+}
+
+/// Every frame: damage that no checksum shows is in one of them. The part that has it is named.
+Outcome check_frames_decode(const MergeOptions& given, const std::vector<PartStream>& parts,
+                            std::span<const std::uint8_t> stream) {
+  DecodeOptions options;
+  options.limits = given.limits.limits;
+  options.threads = given.common.threads;
+  const Outcome all = check_frames_of("merge", stream, options);
+  if (all) return Done{};
+  for (const PartStream& part : parts) SLF_CHECK(check_frames_of(part.name, part.bytes, options));
+  return all;
 }
 
 /// What a file says of its views.
@@ -77,9 +85,9 @@ Outcome check_same_views(const std::vector<PartStream>& parts) {
   for (const PartStream& part : parts) {
     SLF_TRY(const Metadata own, views_of(part));
     if (!own.empty() && own != first)
-      return Failure{kInputInvalid,
-                     part.name + ": properties or positions of its views are not those of " +
-                         parts.front().name};
+      return Failure{kInputInvalid, part.name +
+                                        ": properties or positions of its views are not those of " +
+                                        parts.front().name};
   }
   return Done{};
 }
@@ -90,7 +98,7 @@ Outcome merge_frames(const MergeOptions& given, const std::vector<PartStream>& p
   SLF_CHECK(check_same_views(parts));
   const JoinOrder order = given.append ? JoinOrder::kAsGiven : JoinOrder::kByNumber;
   SLF_TRY(const auto stream, from("merge", join_frames(parts, order, memory_limit(given))));
-  SLF_CHECK(check_frames_decode(stream, given.limits.limits, given.common));
+  SLF_CHECK(check_frames_decode(given, parts, stream));
   SLF_CHECK(save(given.output, stream.data(), stream.size()));
   SLF_TRY(const auto frames, from("merge", list_frames(stream, memory_limit(given))));
   if (given.common.json)
@@ -120,7 +128,9 @@ Outcome run_merge(const MergeOptions& given) {
   SLF_CHECK(check_output(given.output, "merge", std::array{".slf"}));
   SLF_TRY(const std::vector<PartStream> parts, read_parts(given));
   if (is_of_frames(parts.front().bytes)) return merge_frames(given, parts);
-  if (given.append) return Failure{kUsage, "merge: --append is of frames"};
+  if (given.append)
+    return Failure{
+        kUsage, "merge: --append is of frames, and " + parts.front().name + " is one light field"};
   SLF_TRY(const MergedScene merged,
           from("merge",
                merge_parts(parts, given.allow_missing, given.common.threads, memory_limit(given))));

@@ -29,12 +29,19 @@ class PartReader {
   PartReader(const PartStream& part, SceneParts& parts, std::uint64_t max_memory)
       : part_(part), parts_(parts), max_memory_(max_memory) {}
 
+  /// Of an error: the part is one, and not whole.
+  static constexpr const char* kNoPart = "part_plan";
+  static constexpr const char* kNotWhole = "part_units";
+
   Result<Done> read() {
     SLF_TRY(const FrameUnits first, first_frame(part_.bytes));
     if (first.moves())
       return of_unit(first.unit.type, first.unit.offset, Errc::kUnsupported, kOneLightField);
     SLF_TRY(units_, split_units(part_.bytes, 0, max_memory_));
     SLF_TRY(cut_, find_sequence(units_));
+    if (const auto& s = cut_; s.sps_cut_flag != 0 && (s.sps_cut_levels != s.grid_bits() ||
+                                                      s.sps_cut_groups + s.sps_cut_layers > 0))
+      return Error{Errc::kTruncated, kNotWhole};
     SLF_TRY(scene_, collect_units(units_, cut_));
     SLF_TRY(parts_.metadata, collect_metadata(units_));
     parts_.table = scene_.stream.table;
@@ -57,12 +64,12 @@ class PartReader {
       found = true;
       SLF_TRY(sums_, parse_part_sums(application_payload(unit), parts_.table, request.planes()));
     }
-    if (!found) return Error{Errc::kTruncated, "part_plan"};
+    if (!found) return Error{Errc::kTruncated, units_.complete ? kNoPart : kNotWhole};
     parts_.plan = sums_.plan;
     parts_.rdo = sums_.rdo;
     if (cut_.sps_transform_flag != 0) parts_.matrices.resize(request.groups.size());
     if (!is_whole(slots_of(layout_, Owner::kBase), scene_.base.size()))
-      return Error{Errc::kTruncated, "slice_id"};  // matrices, too, stand there
+      return Error{Errc::kTruncated, kNotWhole};  // matrices, too, stand there
     for (const PartUnit& unit : scene_.base) {
       if (unit.type == UnitType::kGeometry)
         parts_.base.push_back({unit.type, payload_at(unit), unit.header});
@@ -78,7 +85,7 @@ class PartReader {
     for (SliceSums& sums : sums_.slices) {
       const PartUnits& units = scene_.slices[sums.slice];
       if (!is_whole(slots_of(layout_, Owner::kSlice), units.size()))
-        return Error{Errc::kTruncated, "slice_id"};
+        return Error{Errc::kTruncated, kNotWhole};
       ScenePiece piece;
       for (const PartUnit& unit : units)
         piece.units.push_back({unit.type, payload_at(unit), unit.header});
@@ -170,8 +177,10 @@ Result<SceneParts, InputError> read_part(const PartStream& part, std::uint64_t m
     if (read.error().code == Errc::kLimitExceeded)
       return InputError{Errc::kLimitExceeded,
                         part.name + ": its units take more memory than the limit"};
-    const bool other = std::string_view(read.error().element) == "part_plan";
-    if (other) return wrong(part.name, "not a part of a scene");
+    const std::string_view element = read.error().element;
+    if (element == PartReader::kNoPart) return wrong(part.name, "not a part of a scene");
+    if (element == PartReader::kNotWhole)
+      return wrong(part.name, "it was cut: units of it are missing, and parts are merged whole");
     return InputError{read.error().code, part.name + ": " + in_words(read.error())};
   }
   return parts;
@@ -182,6 +191,14 @@ Result<Done, InputError> combine(SceneParts& parts, SceneParts more) {
       !same_units(parts.head, more.head) || !same_units(parts.base, more.base) ||
       parts.matrices != more.matrices || parts.metadata != more.metadata)
     return wrong(more.name, "a part of another plan than " + parts.name);
+  // A part may have been annotated: what one says of the scale is of all, whatever their order.
+  if (more.set.sps_metres_flag != 0) {
+    if (parts.set.sps_metres_flag != 0 &&
+        parts.set.sps_metres_per_unit != more.set.sps_metres_per_unit)
+      return wrong(more.name, "its metres_per_unit are not those of the parts before it");
+    parts.set.sps_metres_flag = more.set.sps_metres_flag;
+    parts.set.sps_metres_per_unit = more.set.sps_metres_per_unit;
+  }
   for (std::size_t s = 0; s < more.slices.size(); ++s) {
     if (!more.slices[s]) continue;
     if (parts.slices[s])

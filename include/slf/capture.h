@@ -131,8 +131,9 @@ Result<Capture, InputError> load_capture(const std::filesystem::path& path,
                                          const CaptureOptions& options = {});
 
 /// A capture that a program made in memory, and cameras of it: indices, calibrations, vectors that
-/// go together, images as large as they say, finite points, faces of vertices that are there. What
-/// encodes a capture calls it; load_capture() gives nothing else. O(points + faces + cameras).
+/// go together, images as large as they say, finite points, faces of vertices that are there,
+/// places within Grid::kMostCoordinate. What encodes a capture calls it; load_capture() gives
+/// nothing else but of places. O(points + faces + cameras).
 /// @errors kInvalidArgument: an index that is no camera. kInvalidInput: the rest, by name
 Result<Done, InputError> check_capture(const Capture& capture, std::span<const int> cameras);
 
@@ -256,7 +257,8 @@ struct VoxelCloud {
 /// where > 0 (then bits is what it takes). Spec 6.1 (informative there).
 /// @param bits  1 .. 21; ignored where voxel_size > 0
 /// @errors kInvalidInput: no points; NaN or Inf; all points in one voxel (a cloud of two or more);
-///         voxel_size so small that more than 21 bits are needed.
+///         voxel_size so small that more than 21 bits are needed; a grid that no picture shows
+///         (Grid::fits_floats()).
 Result<VoxelCloud, InputError> voxelise(const PointCloud& cloud, int bits, double voxel_size = 0);
 
 /// A capture's geometry on the grid that it is coded on: `bits` or `voxel_size` as voxelise has

@@ -24,12 +24,14 @@ struct Grid {
 
   /// Are coordinates, steps and what is made of their squares finite floats, above 0? A stream may
   /// say any finite doubles (spec 6.2). Renderers draw nothing of other grids, exports refuse them.
+  /// The encoder makes none.
   bool fits_floats() const {
-    constexpr double kGridMost = 1e12, kGridLeast = 1e-12;
-    bool fits = step >= kGridLeast && step * (1 << bits) <= kGridMost;
-    for (const double x : origin) fits = fits && x >= -kGridMost && x <= kGridMost;
+    constexpr double kGridLeast = 1e-12;
+    bool fits = step >= kGridLeast && step * (1 << bits) <= kMostCoordinate;
+    for (const double x : origin) fits = fits && x >= -kMostCoordinate && x <= kMostCoordinate;
     return fits;
   }
+  static constexpr double kMostCoordinate = 1e12;  ///< world units from 0
 
   Vec3 world(const Voxel& v) const {
     return {origin[0] + step * v[0], origin[1] + step * v[1], origin[2] + step * v[2]};

@@ -124,6 +124,22 @@ TEST(MadeInMemory, CapturesWhosePartsDoNotGoTogetherAreRefusedByName) {
          c.cloud.normals = {{0, 0, 1}};
        }},
       {"point 2", [](Capture& c) { c.cloud.positions[2][1] = -1 / 0.0f; }},
+      {"point 1 has a coordinate of 1999999991808",
+       [](Capture& c) {
+         c.cloud.positions[1] = {0, 0, 2e12F};
+       }},
+      {"mesh: point 0 has a coordinate",
+       [](Capture& c) {
+         c.mesh.vertices.positions = {{1e30F, 0, 0}};
+       }},
+      {"has a coordinate of -3e+13",
+       [](Capture& c) {
+         c.origin = {0, -3e13, 0};
+       }},
+      {"camera 'a' has a coordinate",
+       [](Capture& c) {
+         c.cameras[0].translation = {0, 0, 1e30};
+       }},
       {"gains: 2 of 1", [](Capture& c) { c.gains.resize(2); }},
       {"face 0 has vertex 7 of 0", [](Capture& c) {
          c.mesh.triangles = {{7, 0, 0}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stream of several frames and the verbs: none loses frames without a word.
 #include "cli_support.h"
-#include "tests/codec/frames_support.h"
+#include "tests/codec/frames_edit.h"
 
 namespace slf::cli_frames_test {
 namespace {
@@ -78,6 +78,25 @@ TEST_F(CliFramesTest, MergeRefusesByName) {
   expect_failure(slf("merge x.slf x.slf -o y.slf --quiet"), 4, "x.slf", "is in x.slf too");
   expect_failure(slf("merge x.slf x.slf -o y.slf --quiet --allow-missing"), 2, "merge",
                  "frames follow each other");
+  EXPECT_FALSE(exists("y.slf"));
+}
+
+TEST_F(CliFramesTest, AppendNamesThePartThatCannotBe) {
+  const auto fields = test::drawn_fields_of(test::Moves::kShift, 1);
+  const test::Bytes sound = test::coded_frames(fields, test::frame_parameters(8, 1))[0];
+  test::Frame units = test::split(sound);
+  const auto geometry = std::find_if(units.begin(), units.end(), [](const test::OwnedUnit& u) {
+    return u.type == UnitType::kGeometry && u.payload.size() > 30;
+  });
+  ASSERT_NE(geometry, units.end());
+  geometry->payload.resize(geometry->payload.size() / 2);  // behind a sound checksum
+  const test::Bytes damaged = test::joined_units(units);
+  write("a.slf", {sound.begin(), sound.end()});
+  write("b.slf", {damaged.begin(), damaged.end()});
+  expect_failure(slf("merge --append a.slf b.slf -o y.slf"), 4, "b.slf", "geometry");
+  write("still.slf", "no film");
+  expect_failure(slf("merge --append a.slf still.slf -o y.slf"), 4, "still.slf", "");
+  expect_failure(slf("merge --append still.slf a.slf -o y.slf"), 2, "still.slf", "is of frames");
   EXPECT_FALSE(exists("y.slf"));
 }
 

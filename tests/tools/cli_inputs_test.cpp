@@ -113,6 +113,28 @@ TEST_F(InputsCli, WhatIsForPhotographsIsRefusedOfACloudAlone) {
                  "--effort 1 to 3 takes points as they are given");
 }
 
+TEST_F(InputsCli, StandardInputIsOneOfThem) {
+  for (const char* both : {"encode - --points -", "encode /dev/stdin --points /dev/stdin"})
+    expect_failure(slf(std::string(both) + " -o x.slf"), 2, "CAPTURE and --points",
+                   "standard input");
+}
+
+TEST_F(InputsCli, WhatNoPictureCanShowIsNotCoded) {
+  for (const double scale : {1e13, 1e30, 1e-30}) {
+    PointCloud cloud;
+    for (int i = 0; i < 200; ++i) {
+      const auto at = [&](int n) { return static_cast<float>(scale * (i * n % 97)); };
+      cloud.positions.push_back({at(7), at(31), at(53)});
+      cloud.colours.push_back({9, 90, 200});
+    }
+    ASSERT_TRUE(write_ply(path("c.ply"), cloud));
+    for (const char* options : {"", " --effort 1", " --memory 256M"})
+      expect_failure(slf("encode c.ply -o x.slf --quiet" + std::string(options)), 4, "c.ply",
+                     scale > 1 ? "within 1e12 of 0" : "no picture");
+    EXPECT_FALSE(exists("x.slf"));
+  }
+}
+
 TEST_F(InputsCli, AGltfBesideTheCamerasIsFoundAsAGlbIs) {
   std::filesystem::remove(path("tiny/points.ply"));
   write("tiny/mesh.gltf", "{");

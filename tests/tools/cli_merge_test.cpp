@@ -64,6 +64,40 @@ TEST_F(MergeTest, APartThatDoesNotDecodeIsRefusedByName) {
   EXPECT_GT(refused, 0u);
 }
 
+TEST_F(MergeTest, PartsThatWereCutAreSaidToBeSo) {
+  ASSERT_EQ(plan().code, 0);
+  for (const char* which : {"1/2", "2/2"})
+    ASSERT_EQ(part(which, "part" + std::string(which, 1) + ".slf").code, 0);
+  for (const char* how : {"--levels 7", "--groups 1", "--region 0,0,0,0.001,0.001,0.001"}) {
+    ASSERT_EQ(slf("truncate part2.slf -o cut.slf --quiet " + std::string(how)).code, 0);
+    expect_failure(slf("merge part1.slf cut.slf -o x.slf"), 4, "cut.slf", "it was cut");
+  }
+  const std::string whole = read("part2.slf");
+  const Units units = *split_units(std::vector<std::uint8_t>(whole.begin(), whole.end()));
+  for (std::size_t u = 3; u < units.units.size(); u += 4) {
+    write("cut.slf", whole.substr(0, static_cast<std::size_t>(units.units[u].offset)));
+    expect_failure(slf("merge part1.slf cut.slf -o x.slf"), 4, "cut.slf", "it was cut");
+  }
+  EXPECT_FALSE(exists("x.slf"));
+}
+
+TEST_F(MergeTest, TheScaleOfAPartIsThatOfTheSceneInAnyOrder) {
+  ASSERT_EQ(plan().code, 0);
+  for (const char* which : {"1/2", "2/2"})
+    ASSERT_EQ(part(which, "part" + std::string(which, 1) + ".slf").code, 0);
+  for (const char* n : {"1", "2"})
+    ASSERT_EQ(
+        slf("annotate part2.slf --quiet --metres-per-unit " + std::string(n) + " -o m" + n + ".slf")
+            .code,
+        0);
+  for (const char* order : {"part1.slf m2.slf", "m2.slf part1.slf"}) {
+    ASSERT_EQ(slf("merge -o x.slf --quiet " + std::string(order)).code, 0);
+    EXPECT_EQ(parsed(slf("info x.slf --json").out)["header"]["metres_per_unit"], 2.0) << order;
+  }
+  ASSERT_EQ(slf("annotate part1.slf --quiet --metres-per-unit 1 -o m1.slf").code, 0);
+  expect_failure(slf("merge m1.slf m2.slf -o y.slf"), 4, "m2.slf", "metres_per_unit");
+}
+
 TEST_F(MergeTest, MissingPartsLeaveAValidPartialScene) {
   ASSERT_EQ(plan().code, 0);
   ASSERT_EQ(part("2/3", "b.slf").code, 0);
