@@ -29,7 +29,7 @@ class PartReader {
   PartReader(const PartStream& part, SceneParts& parts, std::uint64_t max_memory)
       : part_(part), parts_(parts), max_memory_(max_memory) {}
 
-  /// Of an error: the part is one, and not whole.
+  /// Errors: it is no part; it is one, and not whole.
   static constexpr const char* kNoPart = "part_plan";
   static constexpr const char* kNotWhole = "part_units";
 

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <string>
+#include <string_view>
 
 #include "base/vec3.h"
 #include "capture/exact_positions.h"
@@ -73,6 +76,11 @@ std::optional<Columns> columns_of(const PlyElement& vertex) {
   return to;
 }
 
+bool is_numbered(std::string_view name, std::string_view of) {
+  return name.starts_with(of) && name.size() > of.size() &&
+         name.find_first_not_of("0123456789", of.size()) == name.npos;
+}
+
 /// Columns of higher degrees, which are numbered without a gap.
 Result<Done, InputError> find_rest(const std::string& name, const PlyElement& vertex, Columns& to) {
   for (;;) {
@@ -81,6 +89,17 @@ Result<Done, InputError> find_rest(const std::string& name, const PlyElement& ve
     if (!column) break;
     to.rest.push_back(*column);
   }
+  for (const PlyProperty& property : vertex.properties)
+    for (const std::string_view of : {"f_rest_", "features_rest_"})
+      if (is_numbered(property.name, of) &&
+          std::strtoull(property.name.c_str() + of.size(), nullptr, 10) >= to.rest.size())
+        return InputError{Errc::kInvalidInput,
+                          std::string(name)
+                              .append(": PLY element 'vertex' has the property ")
+                              .append(property.name)
+                              .append(", and no ")
+                              .append(of)
+                              .append(std::to_string(to.rest.size()))};
   to.degree = to.rest.size() % 3 == 0 ? degree_of_rest(to.rest.size() / 3) : -1;
   if (to.degree < 0)
     return InputError{Errc::kInvalidInput, name + ": PLY element 'vertex' has " +

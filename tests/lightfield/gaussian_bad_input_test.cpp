@@ -69,6 +69,19 @@ TEST(GaussianBadInput, HarmonicsOfNoDegreeAndFilesThatAreCutOffAreRefusedByName)
   EXPECT_FALSE(looks_like_gaussians(bytes_of(ascii_header(1, names)), 1000));
 }
 
+TEST(GaussianBadInput, AHarmonicThatIsMissingAmongOthersIsNamed) {
+  for (const std::string prefix : {"f_rest_", "features_rest_"})
+    for (const int missing : {0, 9, 24, 25, 40}) {
+      auto names = kSplatNames;
+      for (int i = 0; i < 45; ++i)
+        if (i != missing) names.push_back(prefix + std::to_string(i));
+      const auto file = parse_gaussians("x", bytes_of(ascii_header(0, names)));
+      ASSERT_FALSE(file);
+      std::string wanted = "no " + prefix;
+      EXPECT_THAT(file.error().message, HasSubstr(wanted.append(std::to_string(missing))));
+    }
+}
+
 #if !SLF_WITH_ZSTD && !SLF_WITH_WEBP
 TEST(GaussianBadInput, WhatNeedsOtherLibrariesIsRefusedByNameWithAWayOut) {
   FileOfBytes spz4;
