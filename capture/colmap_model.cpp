@@ -14,36 +14,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Known {
-  const char* name;
-  std::size_t num_params;  // 0: not supported
-};
 // By number. Source: COLMAP src/colmap/sensor/models.h.
-constexpr std::array<Known, 18> kModels{{{"SIMPLE_PINHOLE", 3},
-                                         {"PINHOLE", 4},
-                                         {"SIMPLE_RADIAL", 4},
-                                         {"RADIAL", 5},
-                                         {"OPENCV", 8},
-                                         {"OPENCV_FISHEYE", 0},
-                                         {"FULL_OPENCV", 0},
-                                         {"FOV", 0},
-                                         {"SIMPLE_RADIAL_FISHEYE", 0},
-                                         {"RADIAL_FISHEYE", 0},
-                                         {"THIN_PRISM_FISHEYE", 0},
-                                         {"RAD_TAN_THIN_PRISM_FISHEYE", 0},
-                                         {"SIMPLE_DIVISION", 0},
-                                         {"DIVISION", 0},
-                                         {"SIMPLE_FISHEYE", 0},
-                                         {"FISHEYE", 0},
-                                         {"EUCM", 0},
-                                         {"EQUIRECTANGULAR", 0}}};
-
-Result<ColmapModelKind, InputError> supported(const Known& model, const std::string& label) {
-  if (model.num_params > 0) return ColmapModelKind{model.name, model.num_params};
-  return InputError{Errc::kInvalidInput,
-                    label + ": camera model " + model.name +
-                        " is not supported; undistort the images to PINHOLE first"};
-}
+constexpr std::array<ColmapModelKind, 18> kModels{{{"SIMPLE_PINHOLE", 3, true},
+                                                   {"PINHOLE", 4, true},
+                                                   {"SIMPLE_RADIAL", 4, true},
+                                                   {"RADIAL", 5, true},
+                                                   {"OPENCV", 8, true},
+                                                   {"OPENCV_FISHEYE", 8},
+                                                   {"FULL_OPENCV", 12},
+                                                   {"FOV", 5},
+                                                   {"SIMPLE_RADIAL_FISHEYE", 4},
+                                                   {"RADIAL_FISHEYE", 5},
+                                                   {"THIN_PRISM_FISHEYE", 12},
+                                                   {"RAD_TAN_THIN_PRISM_FISHEYE", 16},
+                                                   {"SIMPLE_DIVISION", 4},
+                                                   {"DIVISION", 5},
+                                                   {"SIMPLE_FISHEYE", 3},
+                                                   {"FISHEYE", 4},
+                                                   {"EUCM", 6},
+                                                   {"EQUIRECTANGULAR", 2}}};
 
 void set_intrinsics(const ColmapCamera& from, Camera& to) {
   const auto& p = from.params;
@@ -83,14 +72,14 @@ Place place_of_images(const fs::path& directory, const std::string& first_image)
 
 Result<ColmapModelKind, InputError> colmap_model_kind(std::int64_t id, const std::string& label) {
   if (id >= 0 && static_cast<std::uint64_t>(id) < kModels.size())
-    return supported(kModels[static_cast<std::size_t>(id)], label);
+    return kModels[static_cast<std::size_t>(id)];
   return InputError{Errc::kInvalidInput, label + ": unknown camera model " + std::to_string(id)};
 }
 
 Result<ColmapModelKind, InputError> colmap_model_kind(const std::string& name,
                                                       const std::string& label) {
   for (const auto& model : kModels)
-    if (name == model.name) return supported(model, label);
+    if (name == model.name) return model;
   return InputError{Errc::kInvalidInput, label + ": unknown camera model '" + name + "'"};
 }
 
@@ -141,6 +130,10 @@ Result<Import, InputError> import_of(ColmapModel model, const fs::path& director
     const auto found = camera_of.find(image.camera);
     if (found == camera_of.end())
       return invalid(label, "there is no camera " + std::to_string(image.camera));
+    if (!found->second->kind.supported)
+      return invalid(found->second->label,
+                     std::string("camera model ") + found->second->kind.name +
+                         " is not supported; undistort the images to PINHOLE first");
     auto q = image.quaternion;
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(length > 0) || !std::isfinite(length))

@@ -14,14 +14,15 @@
 
 namespace slf {
 
-/// A camera model that is read. Parameters are in COLMAP's order.
+/// A camera model. Parameters are in COLMAP's order.
 struct ColmapModelKind {
   const char* name;
   std::size_t num_params;
+  bool supported = false;  ///< of others an image is refused; a camera that none has does no harm
 };
 
 /// A camera model by COLMAP's number for it. @param label  for messages
-/// @errors kInvalidInput: unknown, or known (then named) but not supported
+/// @errors kInvalidInput: unknown
 Result<ColmapModelKind, InputError> colmap_model_kind(std::int64_t id, const std::string& label);
 Result<ColmapModelKind, InputError> colmap_model_kind(const std::string& name,
                                                       const std::string& label);
@@ -31,6 +32,7 @@ struct ColmapCamera {
   ColmapModelKind kind{};
   std::uint64_t width = 0, height = 0;
   std::vector<double> params;  ///< [kind.num_params]
+  std::string label;           ///< for messages
 };
 
 struct ColmapImage {

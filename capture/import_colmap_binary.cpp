@@ -97,8 +97,8 @@ Result<std::vector<ColmapCamera>, InputError> read_binary_cameras(Cursor in) {
     camera.width = in.u64();
     camera.height = in.u64();
     if (!in.ok()) return in.cut_off();
-    SLF_TRY(camera.kind, colmap_model_kind(std::int64_t{model},
-                                           in.name() + ": camera " + std::to_string(camera.id)));
+    camera.label = in.name() + ": camera " + std::to_string(camera.id);
+    SLF_TRY(camera.kind, colmap_model_kind(std::int64_t{model}, camera.label));
     for (std::size_t p = 0; p < camera.kind.num_params; ++p) camera.params.push_back(in.f64());
     if (!in.ok()) return in.cut_off();
     cameras.push_back(std::move(camera));

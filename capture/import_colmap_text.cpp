@@ -113,7 +113,8 @@ Result<std::vector<ColmapCamera>, InputError> read_text_cameras(Lines in) {
   while (in.next_entry()) {
     ColmapCamera camera;
     SLF_TRY(camera.id, in.number<std::uint32_t>("camera id"));
-    SLF_TRY(camera.kind, colmap_model_kind(std::string(in.word()), in.label()));
+    camera.label = in.label();
+    SLF_TRY(camera.kind, colmap_model_kind(std::string(in.word()), camera.label));
     SLF_TRY(camera.width, in.number<std::uint64_t>("width"));
     SLF_TRY(camera.height, in.number<std::uint64_t>("height"));
     for (std::size_t p = 0; p < camera.kind.num_params; ++p) {

@@ -60,6 +60,27 @@ TEST(Colmap, ParametersOfEveryModelArePutWhereTheyBelong) {
   EXPECT_THAT(opencv.distortion, ElementsAre(0.1, -0.2, 0.01, 0.02));
 }
 
+TEST(Colmap, ACameraThatNoImageHasMayBeOfAnyModel) {
+  constexpr std::array<int, 18> kParameters = {3, 4,  4,  5, 8, 8, 12, 5, 4,
+                                               5, 12, 16, 4, 5, 3, 4,  6, 2};
+  for (std::int32_t model = 0; model < 18; ++model) {
+    const auto capture = load_with([&](const fs::path& p) {
+      write_colmap_binary(p);
+      ByteString other;  // before the one that images have
+      other.put(std::uint64_t{2}).put(std::uint32_t{3}).put(model);
+      other.put(std::uint64_t{kWidth}).put(std::uint64_t{kHeight});
+      for (int i = 0; i < kParameters[std::size_t(model)]; ++i) other.put(1.5);
+      write_text(p / "sparse/0/cameras.bin", other.bytes + cameras_bin().substr(8));
+    });
+    ASSERT_TRUE(capture) << model << capture.error().message;
+    EXPECT_EQ(capture->cameras[0].fx, 30);
+  }
+  const auto text = load_with([&](const fs::path& p) {
+    write_colmap_text(p, "3 OPENCV_FISHEYE 16 12 30 60 8 6 0 0 0 0\n" + kCamerasTxt);
+  });
+  EXPECT_TRUE(text) << text.error().message;
+}
+
 TEST(Colmap, AQuaternionOfAnotherLengthIsNormalisedWithAWarning) {
   const auto capture = load_with([](const fs::path& p) {
     write_colmap_text(p, kCamerasTxt, replaced(kImagesTxt, "12 1 0 0 0", "12 2 0 0 0"));
