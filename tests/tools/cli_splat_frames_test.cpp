@@ -108,6 +108,55 @@ TEST_F(SplatFramesTest, ThatAreCutOrMergedAreThoseOfTheWhole) {
   EXPECT_EQ(read("a.ply"), read("b.ply"));
 }
 
+TEST_F(SplatFramesTest, FarFromTheOriginKeepTheirPlacesToEachOther) {
+  const Vec3 far{400000, 5700000, 100};  // metres on a map; a float there is half a metre off
+  constexpr double kStep = 0.25;
+  const auto splat = [&](int i, int f) -> Vec3 {
+    return {far[0] + 0.1 * (i % 10) + kStep * f, far[1] + 0.1 * (i / 10), far[2] + 0.02 * i};
+  };
+  constexpr int kSplats = 40;
+  for (int f = 0; f < kFrames; ++f) {
+    std::string header = test::ascii_header(kSplats, test::kSplatNames), rows;
+    for (const char axis : {'x', 'y', 'z'}) {
+      const std::string name = std::string(" ").append(1, axis).append("\n");
+      header.replace(header.find("float" + name), 5, "double");
+    }
+    for (int i = 0; i < kSplats; ++i) {
+      for (const double x : splat(i, f)) rows.append(std::to_string(x)).append(" ");
+      rows += "0.5 0.5 0.5 3 -3 -3 -3 1 0 0 0\n";
+    }
+    write("far_" + std::to_string(f) + ".ply", header + rows);
+  }
+  const Ran coded = slf("encode far_%d.ply -o x.slf -q 0.5 --group 2 --quiet");
+  ASSERT_EQ(coded.code, 0) << coded.err;
+  std::vector<Vec3> means, origins;
+  for (int f = 0; f < kFrames; ++f) {
+    const std::string name = "e" + std::to_string(f) + ".ply";
+    const Ran ran = slf("export x.slf --json --frame " + std::to_string(f) + " -o " + name);
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    origins.push_back(parsed(ran.out)["origin"].get<Vec3>());
+    const auto back = read_gaussians(path(name));
+    ASSERT_TRUE(back);
+    ASSERT_EQ(back->gaussians.size(), std::size_t{kSplats});
+    Vec3 mean{};
+    for (const auto& at : back->gaussians.positions)
+      for (std::size_t k = 0; k < 3; ++k) mean[k] += double{at[k]} / kSplats;
+    means.push_back(mean);
+  }
+  for (std::size_t f = 0; f < means.size(); ++f) {
+    EXPECT_EQ(origins[f], origins[0]);
+    EXPECT_NEAR(origins[f][1], far[1], 10);
+    EXPECT_NEAR(means[f][0] - means[0][0], kStep * double(f), 1e-3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      double mean = 0;
+      for (int i = 0; i < kSplats; ++i) mean += splat(i, int(f))[k] / kSplats;
+      EXPECT_NEAR(means[f][k] + origins[f][k], mean, 1e-3) << f << " " << k;
+    }
+  }
+  ASSERT_EQ(slf("export x.slf --frames 0:3 -o a%d.ply --quiet").code, 0);
+  EXPECT_EQ(read("a3.ply"), read("e3.ply"));
+}
+
 TEST_F(SplatFramesTest, ADryRunSaysWhatWouldBeDone) {
   const Ran dry = slf("encode s_%d.ply -o x.slf --dry-run --json");
   ASSERT_EQ(dry.code, 0) << dry.err;
