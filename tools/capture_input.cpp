@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/capture_input.h"
 
-#include <filesystem>
 #include <string>
 
 #include "slf/crop_gaussians.h"
+#include "slf/input_cameras.h"
 #include "slf/splat_surface.h"
-#include "tools/measure_file.h"
 #include "tools/splat_input.h"
 #include "tools/spooled_input.h"
 #include "tools/text.h"
@@ -16,34 +15,12 @@ namespace {
 
 constexpr std::uint64_t kMostSplatBytes = std::uint64_t{1} << 32;
 
-/// The last component of the path, whatever it ends with; never more, so that no machine's paths
-/// get into a file.
-std::string last_name(const std::string& path) {
-  std::error_code ignored;
-  std::filesystem::path full = std::filesystem::weakly_canonical(path, ignored);
-  if (ignored) full = path;
-  return full.filename().empty() ? full.parent_path().filename().string()
-                                 : full.filename().string();
-}
-
-/// What split_cameras made of "".
-std::string split_name(const Capture& capture, const std::string& given) {
-  if (!given.empty()) return given;
-  return capture.splits.count("dense") ? "dense" : "default";
-}
-
-Result<std::vector<int>, Failure> input_cameras(const Capture& capture,
-                                                const EncodeOptions& given) {
-  if (!capture.cameras.empty()) {
-    SLF_TRY(auto cameras, from(given.capture, split_cameras(capture, given.split)));
-    if (!cameras.empty()) return cameras;
-    return Failure{kInputInvalid, given.capture + ": its split " +
-                                      split_name(capture, given.split) + " has no images"};
-  }
-  if (!given.split.empty())
-    return Failure{kUsage, std::string(given.verb) + ": --split " + given.split +
-                               ": the capture has no cameras"};
-  return std::vector<int>{};
+/// Cameras of the split, in the words of the command line.
+Result<std::vector<int>, Failure> split_of(const Capture& capture, const EncodeOptions& given) {
+  auto cameras = input_cameras(capture, given.split);
+  if (!cameras && capture.cameras.empty())
+    return Failure{kUsage, std::string(given.verb) + ": " + cameras.error().message};
+  return from(given.capture, std::move(cameras));
 }
 
 /// Points that splats show to the cameras.
@@ -64,15 +41,10 @@ Outcome take_splats(const EncodeOptions& given, CaptureInput& input) {
 
 /// Photographs without the object are left out. Black masks are no input, but a mistake.
 Outcome check_masks(const EncodeOptions& given, CaptureInput& input) {
-  const std::size_t all = input.cameras.size();
-  std::string warning =
-      leave_out_empty(input.capture, "input", given.common.threads, input.cameras);
+  SLF_TRY(std::string warning,
+          from(given.capture,
+               leave_out_empty_inputs(input.capture, given.common.threads, input.cameras)));
   if (warning.empty()) return Done{};
-  if (input.cameras.empty())
-    return Failure{kInputInvalid,
-                   given.capture + ": the masks (or alpha) of all " + std::to_string(all) +
-                       " input photographs are black, and 128 and more, white, is the object: "
-                       "invert them (mogrify -negate) or take them away"};
   warn(warning, given.common.quiet);
   input.capture.warnings.push_back(std::move(warning));
   return Done{};
@@ -102,16 +74,13 @@ Result<CaptureInput, Failure> load_input(const EncodeOptions& given, ProgressLin
   for (std::string& warning : input.capture.warnings)
     warning = SpooledInput::named(std::move(warning));
   warn(input.capture.warnings, given.common.quiet);
-  SLF_TRY(input.cameras, input_cameras(input.capture, given));
+  SLF_TRY(input.cameras, split_of(input.capture, given));
   if (splats) SLF_CHECK(take_splats(given, input));
   SLF_CHECK(check_masks(given, input));
-  input.metadata.emplace_back("source", last_name(given.capture));
-  if (!input.cameras.empty())
-    input.metadata.emplace_back("split", split_name(input.capture, given.split));
   if (!given.crs.empty()) {
     SLF_TRY(input.capture.crs, from(given.crs, read_crs(given.crs)));
   }
-  if (!input.capture.crs.empty()) input.metadata.emplace_back("crs", input.capture.crs);
+  input.metadata = input_metadata(input.capture, input.cameras, given.split, given.capture);
   input.seconds = watch.lap();
   return input;
 }

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "slf/input_cameras.h"
 #include "tools/measure_file.h"
 #include "tools/output.h"
 #include "tools/progress.h"

@@ -52,19 +52,6 @@ std::vector<int> used_cameras(const Encoded& encoded, std::vector<int> cameras) 
   return cameras;
 }
 
-std::string leave_out_empty(const Capture& capture, const char* which, int threads,
-                            std::vector<int>& cameras) {
-  const std::vector<int> empty = cameras_without_object(capture, cameras, threads);
-  if (empty.empty()) return {};
-  const std::size_t all = cameras.size();
-  for (const int camera : empty) std::erase(cameras, camera);
-  return text(
-      "%zu of %zu %s photographs have a mask or alpha without a pixel of the object (the first is "
-      "%s): left out; 128 and more, white, is the object",
-      empty.size(), all, which,
-      printable(capture.cameras[static_cast<std::size_t>(empty[0])].name).c_str());
-}
-
 Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture& capture,
                                            std::span<const int> cameras, int threads) {
   Stopwatch watch;

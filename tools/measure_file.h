@@ -24,12 +24,6 @@ struct FilePictures {
 /// Those of the input that were not dropped.
 std::vector<int> used_cameras(const Encoded& encoded, std::vector<int> cameras);
 
-/// Leaves out photographs whose mask or alpha shows nothing of the object.
-/// @param which  "input", "held-out"
-/// @return a warning; empty where all show it
-std::string leave_out_empty(const Capture& capture, const char* which, int threads,
-                            std::vector<int>& cameras);
-
 /// Decodes the file and draws what the input cameras saw, 32 of them at most.
 /// @param capture  what was encoded
 Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture& capture,

@@ -10,6 +10,7 @@
 #include "reporter.h"
 #include "slf/frame_inputs.h"
 #include "slf/gaussian_files.h"
+#include "slf/input_cameras.h"
 #include "slf/settings.h"
 
 namespace slf::python {
@@ -53,20 +54,25 @@ py::tuple encode_capture(const Capture& capture, const std::string& path, const 
   const GivenSettings given = given_settings(wanted.options);
   EncoderSettings settings = value_of(settings_from(given));
   settings.threads = wanted.threads;
-  const std::vector<int> cameras = input_cameras(capture, wanted.split);
+  std::vector<int> cameras = value_of(input_cameras(capture, wanted.split));
   check_photographs(cameras, given);
+  std::vector<std::string> warnings = capture.warnings;
   settings.metadata = input_metadata(capture, cameras, wanted.split, path);
   settings.metadata.insert(settings.metadata.end(), wanted.metadata.begin(), wanted.metadata.end());
   Reporter reporter(wanted.progress);
   const Progress report = reporter.progress();
   Encoded encoded;
-  reporter.run([&] { encoded = value_of(encode(capture, cameras, settings, report)); });
+  reporter.run([&] {
+    std::string empty = value_of(leave_out_empty_inputs(capture, wanted.threads, cameras));
+    if (!empty.empty()) warnings.push_back(std::move(empty));
+    encoded = value_of(encode(capture, cameras, settings, report));
+  });
+  warnings.insert(warnings.end(), encoded.warnings.begin(), encoded.warnings.end());
   using namespace py::literals;
-  return py::make_tuple(
-      bytes_of(encoded.stream),
-      py::dict("q"_a = encoded.q, "points"_a = encoded.points, "bits"_a = encoded.grid.bits,
-               "step"_a = encoded.grid.step, "observations"_a = encoded.observations,
-               "warnings"_a = encoded.warnings));
+  return py::make_tuple(bytes_of(encoded.stream),
+                        py::dict("q"_a = encoded.q, "points"_a = encoded.points,
+                                 "bits"_a = encoded.grid.bits, "step"_a = encoded.grid.step,
+                                 "observations"_a = encoded.observations, "warnings"_a = warnings));
 }
 
 py::tuple encode_path(const std::string& path, const Wanted& wanted) {

@@ -53,9 +53,12 @@ _CLASSES: dict[str, type[Error]] = {
 }
 
 
+EMPTY = 'the file is empty'
+
+
 def of_source(error: Error, name: str) -> Error:
     """The same error, which says what of. What is no stream at all is said to be none."""
-    what = 'not an .slf file' if error.code == 'SLF_NOT_SLF' else str(error)
+    what = 'not an .slf file' if error.code == 'SLF_NOT_SLF' and str(error) != EMPTY else str(error)
     return make(error.code, f'{name}: {what}', error.element, error.unit, error.bit_offset)
 
 

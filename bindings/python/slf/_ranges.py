@@ -7,6 +7,7 @@ import contextlib
 import http.client
 import os
 import re
+import urllib.error
 import urllib.request
 from typing import IO, Any, Dict, Iterator, List, Optional, Union
 
@@ -62,7 +63,15 @@ class UrlRanges:
         self._tag: Optional[str] = None
         self._begin = b''
         self.size = 0
-        with self._get(0, _FIRST) as answer:
+        try:
+            first = self._get(0, _FIRST)
+        except urllib.error.HTTPError as error:
+            if error.code != 416:  # no first byte: the file is empty, and what reads it says so
+                raise
+            error.close()
+            self.ranges = False
+            return
+        with first as answer:
             found = re.fullmatch(r'bytes 0-\d+/(\d+)', answer.headers.get('Content-Range', ''))
             self.ranges = answer.status == 206 and found is not None  #: else all of it is here
             self._tag = answer.headers.get('ETag')

@@ -7,7 +7,7 @@ import io
 import os
 from typing import Any, Iterator, Union
 
-from ._errors import DamagedError, LimitError, UnsupportedError, of_source
+from ._errors import EMPTY, DamagedError, LimitError, UnsupportedError, make, of_source
 from ._ranges import FileRanges, KeptRanges, Ranges, UrlRanges, can_seek, from_beginning, is_address, whole_of
 from ._types import Source
 
@@ -20,7 +20,7 @@ def bytes_of(source: Source) -> Data:
     if isinstance(source, (bytes, bytearray, memoryview)):
         return source
     if is_address(source):
-        return whole_of(UrlRanges(str(source)))
+        return whole_of(_filled(UrlRanges(str(source))))
     if isinstance(source, (str, os.PathLike)):
         with open(source, 'rb') as file:
             return file.read()
@@ -56,12 +56,18 @@ def _opened(source: Source, stack: contextlib.ExitStack) -> Union[Data, Ranges]:
     if isinstance(source, (bytes, bytearray, memoryview)):
         return source
     if is_address(source):
-        return UrlRanges(str(source))
+        return _filled(UrlRanges(str(source)))
     file: Any = stack.enter_context(open(source, 'rb')) if isinstance(source, (str, os.PathLike)) else source
     if isinstance(file, io.TextIOBase) or not can_seek(file):
         return _all_of(file)
     stack.enter_context(from_beginning(file))
-    return FileRanges(file)
+    return _filled(FileRanges(file))
+
+
+def _filled(ranges: Ranges) -> Ranges:
+    if not ranges.size:
+        raise make('SLF_NOT_SLF', EMPTY, 'signature', '', 0)
+    return ranges
 
 
 @contextlib.contextmanager

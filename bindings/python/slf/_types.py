@@ -184,7 +184,7 @@ class Encoded:
     bits: int  #: of the grid
     step: float  #: world units from voxel to voxel
     observations: int
-    warnings: Tuple[str, ...]
+    warnings: Tuple[str, ...]  #: of the capture, then of its encoding
 
     def write(self, path: Union[str, 'os.PathLike[str]']) -> None:
         """To a temporary file beside `path`, renamed over it."""

@@ -51,6 +51,9 @@ def served(data, ranges=True, changes=False):
                 self.send_error(404)
                 return
             same = self.headers.get('If-Range', tag) == tag
+            if ranges and wanted and not data:
+                self.send_error(416)
+                return
             begin, end = 0, len(data)
             if ranges and wanted and same:
                 begin, last = map(int, wanted.removeprefix('bytes=').split('-'))
@@ -115,6 +118,13 @@ class RangesTest(unittest.TestCase):
         program = 'import sys, slf; print(len(slf.read("/dev/stdin")))'
         said = subprocess.run([sys.executable, '-c', program], input=self.data, stdout=subprocess.PIPE, check=True).stdout
         self.assertEqual(int(said), len(slf.read(self.data)))
+
+    def test_an_empty_file_at_an_address_is_said_to_be_one(self):
+        for ranges in (True, False):
+            with served(b'', ranges=ranges) as (address, _):
+                for use in (slf.read, slf.info, slf.frames, lambda source: slf.read(source, levels=3)):
+                    with self.subTest(ranges=ranges), self.assertRaisesRegex(slf.DamagedError, f'{address}: the file is empty'):
+                        use(address)
 
     def test_server_without_ranges_gives_the_whole(self):
         with served(self.data, ranges=False) as (address, _):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The package as a user meets it: arrays, pictures and errors."""
+import dataclasses
 import json
 import os
 import pathlib
@@ -184,6 +185,15 @@ class EncodeTest(unittest.TestCase):
         self.assertTrue(all(0 <= fraction <= 1 for _, fraction in stages))
         self.assertGreater(slf.info(encoded.data).functions, 1)
 
+        capture.images[2] = np.dstack([capture.images[2], np.zeros((48, 48), np.uint8)])
+        masked = slf.encode(capture, split='all', effort=1, grid_bits=6)
+        self.assertIn('1 of 6 input photographs have a mask or alpha without', '\n'.join(masked.warnings))
+        self.assertLess(masked.observations, encoded.observations)
+        capture.images[2] = capture.images[3]
+        hidden = dataclasses.replace(capture, images=[np.dstack([image, 0 * image[:, :, 0]]) for image in capture.images])
+        with self.assertRaisesRegex(slf.InputError, 'all 6 input photographs are black'):
+            slf.encode(hidden, split='all', effort=1)
+
         called = []
 
         def fails(stage, fraction):
@@ -202,6 +212,15 @@ class EncodeTest(unittest.TestCase):
         capture.images = capture.images[1:]
         with self.assertRaises(ValueError):
             slf.encode(capture)
+
+    def test_what_a_capture_is_warned_of_is_among_the_warnings(self):
+        rows = ''.join(f'{i % 7} {i % 5} {i % 3 + i / 50} 9 99 {i}\n' for i in range(39))
+        names = ''.join(f'property {kind} {name}\n' for kind, name in
+                        [*(('float', n) for n in 'xyz'), *(('uchar', n) for n in ('red', 'green', 'blue'))])
+        with tempfile.TemporaryDirectory() as directory:
+            cloud = pathlib.Path(directory) / 'x.ply'
+            cloud.write_text(f'ply\nformat ascii 1.0\nelement vertex 40\n{names}end_header\nnan 0 0 1 2 3\n{rows}')
+            self.assertIn('1 of 40 points are not finite', '\n'.join(slf.encode(cloud).warnings))
 
     def test_wrong_captures_and_settings_are_refused(self):
         with self.assertRaises(slf.InputError) as caught:
