@@ -25,12 +25,12 @@ export async function fetchCapture(folder) {
     if (!response?.ok) continue;
     const image = async (path) => {
       const found = await fetch(inside(base, path)).catch(() => null);
-      if (!found?.ok) throw new ViewerError('network', `The photograph ${path} cannot be fetched.`);
-      return createImageBitmap(await found.blob());
+      if (!found?.ok) throw new ViewerError('network', 'The photograph cannot be fetched.', path);
+      return pictureOf(await found.blob(), path);
     };
     return camerasOf(await response.json().catch(() => null), read, name, image);
   }
-  throw new ViewerError('network', `${folder} has neither cameras.json nor transforms.json.`);
+  throw new ViewerError('network', 'The capture has neither cameras.json nor transforms.json.', String(folder));
 }
 
 /** The same of files that were dropped together; null where none of them lists cameras. */
@@ -41,13 +41,19 @@ export async function droppedCapture(files) {
     const image = async (path) => {
       const last = path.split('/').pop();
       const file = files.find((each) => each.name === last || each.name.replace(/\.[^.]+$/, '') === last);
-      if (!file) throw new ViewerError('network', `The photograph ${path} was not among the files.`);
-      return createImageBitmap(file);
+      if (!file) throw new ViewerError('network', 'The photograph was not among the files.', path);
+      return pictureOf(file, path);
     };
-    return camerasOf(JSON.parse(await list.text().catch(() => 'null')), read, name, image);
+    const root = await new Response(list).json().catch(() => null);
+    return camerasOf(root, read, name, image);
   }
   return null;
 }
+
+const pictureOf = (blob, path) =>
+  createImageBitmap(blob).catch(() => {
+    throw new ViewerError('damaged', 'The photograph cannot be read.', path);
+  });
 
 const READERS = { 'cameras.json': readCameras, 'transforms.json': readTransforms };
 
@@ -59,7 +65,7 @@ function camerasOf(root, read, name, image) {
       [c.cx, c.cy, ...c.rotation, ...c.eye].every(Number.isFinite) &&
       c.rotation.length === 9,
   );
-  if (!usable.length) throw new ViewerError('damaged', `${name} has no camera that can be used.`);
+  if (!usable.length) throw new ViewerError('damaged', 'The capture has no camera that can be used.', name);
   for (const camera of usable) camera.photograph = () => image(camera.name);
   return usable;
 }
@@ -67,7 +73,7 @@ function camerasOf(root, read, name, image) {
 /** An image may not lead out of its capture. */
 function inside(base, path) {
   const address = new URL(path, base);
-  if (!address.href.startsWith(base.href)) throw new ViewerError('damaged', `${path} leads out of the capture.`);
+  if (!address.href.startsWith(base.href)) throw new ViewerError('damaged', 'A photograph leads out of the capture.', path);
   return address;
 }
 

@@ -48,7 +48,9 @@ export class Comparison {
     try {
       own.photograph = await camera.photograph();
     } catch (error) {
-      if (this.shown === own) this.page.at('psnr').textContent = this.page.t(error.message);
+      const { words = error.message, detail } = error;
+      const said = this.page.t(words);
+      if (this.shown === own) this.page.at('psnr').textContent = detail ? `${said} (${detail})` : said;
       return;
     }
     if (this.shown !== own) return;

@@ -29,6 +29,16 @@ for (const name of languages)
     }
   });
 
+test('every sentence of an error stands in every language', async () => {
+  const HOLE = /\$\{[^}]*\}/g;
+  const said = [...code.matchAll(/new ViewerError\(\s*'[\w-]+',\s*(['"`])(.*?)\1\s*[,)]/gs)].map((found) => found[2].replace(HOLE, '{}'));
+  assert.ok(said.length > 15);
+  for (const name of languages) {
+    const { default: words } = await import(new URL(`languages/${name}`, viewer));
+    for (const each of said) assert.ok(Object.hasOwn(words, each), `${name}: ${each}`);
+  }
+});
+
 test('every text of a language is said somewhere', async () => {
   const { default: words } = await import(new URL('languages/de.js', viewer));
   const html = text('viewer.html');
