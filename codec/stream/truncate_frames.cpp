@@ -23,18 +23,20 @@ class FrameCutter {
     options_.max_bytes = 0;
   }
 
-  Result<Bytes> cut(const FrameUnits& frame) {
-    return frame.header.predicted() ? cut_predicted(frame) : cut_intra(frame);
+  /// @param alone  no frame that is kept is predicted from it
+  Result<Bytes> cut(const FrameUnits& frame, bool alone) {
+    return frame.header.predicted() ? cut_predicted(frame) : cut_intra(frame, alone);
   }
 
  private:
-  Result<Bytes> cut_intra(const FrameUnits& frame) {
+  Result<Bytes> cut_intra(const FrameUnits& frame, bool alone) {
     SLF_TRY(group_, open_stream(bytes_of(frame), options_.limits));
     SLF_TRY(Request request, request_of(group_->units, group_->scene, options_));
-    // Every frame needs all levels of the one before: 8.12.7.
-    if (request.kept_levels_only() && group_->scene.stream.set.has_moved_points())
+    // A predicted frame needs all levels of the one before: 8.12.7.
+    const bool moves = group_->scene.stream.set.has_moved_points();
+    if (request.kept_levels_only() && moves && !alone)
       return Error{Errc::kInvalidArgument, kEveryLevel};
-    request.kept = &predicted_from_;
+    if (!(moves && alone)) request.kept = &predicted_from_;
     SLF_CHECK(check_limits(request, options_));
     asked_ = request;
     if (request.whole) return copy_of(frame);
@@ -108,7 +110,8 @@ Result<Bytes> truncate_frames(std::span<const std::uint8_t> stream, std::size_t 
   Bytes kept;
   std::uint64_t before = 0;  // bytes of the frames that are kept, as they were
   for (std::size_t f = first; f <= last; ++f) {
-    SLF_TRY(const Bytes frame, cutter.cut(frames[f]));
+    const bool alone = f == last || !frames[f + 1].header.predicted();
+    SLF_TRY(const Bytes frame, cutter.cut(frames[f], alone));
     if (options.max_bytes > 0 && kept.size() + frame.size() > options.max_bytes) break;
     kept.insert(kept.end(), frame.begin(), frame.end());
     before += frames[f].bytes;

@@ -137,6 +137,27 @@ TEST(Spec_8_12_7_MovedPoints, LevelsAreNotCutOutOfThem) {
   EXPECT_EQ(decoded_frame(decoder, 1).positions, scattered(1).positions);
 }
 
+TEST(Spec_8_12_7_MovedPoints, LevelsAreCutOutOfAFrameThatNoOtherNeeds) {
+  const Bytes stream = joined(two_frames(true));
+  for (int levels = 1; levels < kFrameBits; ++levels) {
+    DecodeOptions few;
+    few.levels = levels;
+    const auto cut = truncate_frames(stream, 0, 0, few);
+    ASSERT_TRUE(cut) << to_string(cut.error());
+    EXPECT_LT(cut->size(), two_frames(true)[0].size());
+    FrameDecoder whole = opened(stream, few), decoder = opened(*cut);
+    const LightField expected = decoded_frame(whole, 0), field = decoded_frame(decoder, 0);
+    EXPECT_EQ(field.positions, expected.positions);
+    EXPECT_EQ(field.components, expected.components);
+    // A predicted frame behind it is refused, not drawn wrong.
+    Bytes with_next = *cut;
+    const Bytes next = two_frames(true)[1];
+    with_next.insert(with_next.end(), next.begin(), next.end());
+    FrameDecoder broken = opened(with_next);
+    EXPECT_FALSE(broken.decode(1));
+  }
+}
+
 TEST(Spec_8_12_7_MovedPoints, MemoryForThemIsCountedBeforeItIsTaken) {
   const Bytes stream = joined(two_frames(true));
   DecodeOptions options;
