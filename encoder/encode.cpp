@@ -17,6 +17,7 @@
 #include "encoder/encode_metadata.h"
 #include "encoder/encode_splats.h"
 #include "encoder/encode_to_target.h"
+#include "encoder/encode_warnings.h"
 #include "encoder/fit/match_exposure.h"
 #include "encoder/fit/sampled_sight.h"
 #include "encoder/fit_capture.h"
@@ -87,13 +88,6 @@ void warn_of_points(Job& job) {
     encoded.warnings.push_back(
         "the cloud is denser than its photographs tell apart, and they disagree about it: on an "
         "automatic grid (no --grid-bits, no --voxel-size) it is thinned and mended");
-}
-
-void warn_of_cameras(std::span<const CameraTrust> cameras, const Capture& capture,
-                     std::vector<std::string>& warnings) {
-  for (const CameraTrust& trust : cameras)
-    if (trust.verdict != CameraVerdict::kKept)
-      warnings.push_back(capture.cameras[std::size_t(trust.camera)].name + ": " + reason_of(trust));
 }
 
 /// Photographs that a training must not take in. What is not trained finds them in its fit.
@@ -274,7 +268,9 @@ Result<Encoded, InputError> encode(const Capture& given, std::span<const int> ca
           splats ? encode_splats(seen, start, own, with_dropped(recorded, foreign), progress, cache)
                  : encode_from(seen, start, own, foreign, recorded, progress));
   if (splats) encoded.cameras = foreign;
-  warn_of_cameras(encoded.cameras, capture, encoded.warnings);
+  if (points && points->left_out > 0)
+    encoded.warnings.push_back(left_out_warning(points->left_out, capture.cloud.positions.size()));
+  warn_of_cameras(encoded.cameras, cameras.size(), capture, encoded.warnings);
   if (settings.match_exposure == MatchExposure::kOn && exposure.gains.empty() && !cameras.empty())
     encoded.warnings.push_back(
         "exposure is not matched: photographs have no points in common to compare");

@@ -95,8 +95,8 @@ Result<SplatsThatPay, InputError> more_and_more(const SplatJob& job, const Trial
   for (double gain = kPromising; out.best.bytes > 0 && gain >= kPromising;) {
     const auto more = static_cast<std::size_t>(kMoreSplats * double(out.best.splats));
     SLF_TRY(const SplatTrial trial, tried(job, kTrialIterations, more));
-    out.trials.push_back(trial.file);
     if (trial.file.bytes == 0) break;
+    out.trials.push_back(trial.file);
     gain = worth_of(trial.file) - worth_of(out.best);
     if (gain < kMoreWorth) break;
     out.number = more;

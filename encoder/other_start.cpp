@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "encoder/fit_capture.h"
+#include "encoder/train/object_points.h"
 #include "encoder/train/train_geometry.h"
 
 namespace slf {
@@ -33,13 +34,25 @@ Result<std::optional<StartingPoints>, InputError> other_start(const Capture& cap
   }
   const bool trains = settings.surface == Surface::kAuto || settings.surface == Surface::kTrained ||
                       settings.surface == Surface::kSplats;
-  if (!trains || !training_obstacle(capture, cameras).empty() || is_dense(capture, cameras))
-    return Start{};
-  auto points = starting_points(capture, cameras, settings.threads);
-  const bool taken = points && points->start == StartId::kHull &&
-                     points->cloud.positions.size() > capture.cloud.positions.size() &&
-                     lies_on(points->cloud, capture.cloud);
-  return taken ? Start{*std::move(points)} : Start{};
+  if (!trains || !training_obstacle(capture, cameras).empty()) return Start{};
+  SLF_TRY(ObjectPoints own, object_points(capture, cameras, settings.threads));
+  std::optional<Capture> of_object;
+  if (own.left_out > 0) {
+    of_object = capture;
+    of_object->cloud = std::move(own.cloud);
+  }
+  const Capture& shown = of_object ? *of_object : capture;
+  const bool few = !training_obstacle(shown, cameras).empty();
+  if (few || !is_dense(shown, cameras)) {
+    auto hull = starting_points(capture, cameras, settings.threads);
+    const bool taken = hull && hull->start == StartId::kHull &&
+                       hull->cloud.positions.size() > shown.cloud.positions.size() &&
+                       (few || lies_on(hull->cloud, shown.cloud));
+    if (taken) hull->left_out = own.left_out;
+    if (taken) return Start{*std::move(hull)};
+  }
+  if (few || !of_object) return Start{};
+  return Start{{std::move(of_object->cloud), StartId::kPoints, own.left_out}};
 }
 
 }  // namespace slf

@@ -21,6 +21,9 @@ namespace {
 // Pixels. Right poses: 0.01 to 0.1 on four captures; the dinosaur, which has wrong ones: 0.4.
 constexpr double kOffPixels = 0.25;
 constexpr std::size_t kMostCameras = 32;
+// dB. Captures whose parts belong together: 20 and more of the default; photographs of two objects
+// 15.
+constexpr double kUnlike = 17;
 // Below, a picture lies off by what points and pixels are wide: 0.3 and more with right poses.
 constexpr int kLeastSide = 128;
 constexpr std::size_t kLeastCameras = 4;
@@ -33,6 +36,25 @@ int least_side(const Capture& capture, std::span<const int> cameras) {
     side = std::min({side, camera.width, camera.height});
   }
   return side;
+}
+
+std::string off_cameras_warning(const FilePictures& pictures, const Encoded& encoded) {
+  if (!(pictures.off_pixels > kOffPixels) || !encoded.poses.cameras.empty()) return {};
+  if (pictures.side < kLeastSide || pictures.cameras < kLeastCameras) return {};
+  if (encoded.density.pixel > 0 && encoded.grid.step > kCoarse * encoded.density.pixel) return {};
+  return text(
+      "pictures lie %.2f pixels off their photographs (median): poses of cameras may be wrong; "
+      "--refine-cameras on trains them",
+      pictures.off_pixels);
+}
+
+std::string unlike_pictures_warning(const FilePictures& pictures, const EncoderSettings& settings) {
+  if (settings.q != kAutomaticQ || settings.target_bytes > 0 || settings.target_psnr > 0) return {};
+  if (!(pictures.psnr < kUnlike)) return {};
+  return text(
+      "pictures are %.1f dB from their photographs, as of another thing: do cameras, points and "
+      "photographs belong together?",
+      pictures.psnr);
 }
 
 }  // namespace
@@ -90,14 +112,12 @@ void take_poses(const PoseReport& poses, Capture& capture) {
   }
 }
 
-std::string off_cameras_warning(const FilePictures& pictures, const Encoded& encoded) {
-  if (!(pictures.off_pixels > kOffPixels) || !encoded.poses.cameras.empty()) return {};
-  if (pictures.side < kLeastSide || pictures.cameras < kLeastCameras) return {};
-  if (encoded.density.pixel > 0 && encoded.grid.step > kCoarse * encoded.density.pixel) return {};
-  return text(
-      "pictures lie %.2f pixels off their photographs (median): poses of cameras may be wrong; "
-      "--refine-cameras on trains them",
-      pictures.off_pixels);
+std::vector<std::string> picture_warnings(const FilePictures& pictures, const Encoded& encoded,
+                                          const EncoderSettings& settings) {
+  std::vector<std::string> warnings = {off_cameras_warning(pictures, encoded),
+                                       unlike_pictures_warning(pictures, settings)};
+  std::erase(warnings, "");
+  return warnings;
 }
 
 std::string pictures_text(const FilePictures& pictures, const Encoded& encoded,

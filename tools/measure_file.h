@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "slf/encoder.h"
 #include "tools/failure.h"
@@ -32,9 +33,11 @@ Result<FilePictures, Failure> measure_file(const Encoded& encoded, const Capture
 /// The cameras where the encoder had them.
 void take_poses(const PoseReport& poses, Capture& capture);
 
-/// Says what to do where poses seem wrong; empty: they do not, or few or tiny photographs, or
-/// voxels of several pixels, do not tell.
-std::string off_cameras_warning(const FilePictures& pictures, const Encoded& encoded);
+/// What to do where poses seem wrong, unless few or tiny photographs, or voxels of several pixels,
+/// do not tell; and that pictures are unlike their photographs, where nobody chose the step or the
+/// size of the file.
+std::vector<std::string> picture_warnings(const FilePictures& pictures, const Encoded& encoded,
+                                          const EncoderSettings& settings);
 
 /// A line of the report.
 std::string pictures_text(const FilePictures& pictures, const Encoded& encoded,

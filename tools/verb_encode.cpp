@@ -214,10 +214,9 @@ Outcome run_encode(const EncodeOptions& given, const SceneOptions& scene) {
     take_poses(encoded.poses, matched);
     SLF_TRY(pictures, measure_file(encoded, matched, used_cameras(encoded, input.cameras),
                                    given.common.threads));
-    if (std::string warning = off_cameras_warning(pictures, encoded); !warning.empty()) {
-      warn({warning}, given.common.quiet);
-      encoded.warnings.push_back(std::move(warning));
-    }
+    const std::vector<std::string> said = picture_warnings(pictures, encoded, settings);
+    warn(said, given.common.quiet);
+    encoded.warnings.insert(encoded.warnings.end(), said.begin(), said.end());
   }
   if (given.common.json) {
     SLF_TRY(const StreamInfo info, from(given.output, read_info(encoded.stream)));

@@ -94,6 +94,8 @@ Observations group_by_point(std::vector<CameraResult>& results, const std::vecto
   return out;
 }
 
+}  // namespace
+
 InputError nothing_seen(const SightingCounts& sum, std::size_t cameras, std::size_t points) {
   const bool masked = sum.visible > 0;
   return {
@@ -107,8 +109,6 @@ InputError nothing_seen(const SightingCounts& sum, std::size_t cameras, std::siz
           " of them project into the image, " + std::to_string(sum.visible) +
           " of those are not hidden, and none is free of the mask"};
 }
-
-}  // namespace
 
 Result<SeenPoints, InputError> observe_points(const Capture& capture, std::span<const int> cameras,
                                               const ObservedPoints& points,
@@ -131,11 +131,11 @@ Result<SeenPoints, InputError> observe_points(const Capture& capture, std::span<
   return seen;
 }
 
-Result<Observations, InputError> observe(const Capture& capture, std::span<const int> cameras,
-                                         const ObservedPoints& points,
-                                         std::span<const std::array<float, 3>> occluders,
-                                         double spacing, const ObserveSettings& settings,
-                                         const Progress& progress) {
+Result<SeenPoints, InputError> observe_behind(const Capture& capture, std::span<const int> cameras,
+                                              const ObservedPoints& points,
+                                              std::span<const std::array<float, 3>> occluders,
+                                              double spacing, const ObserveSettings& settings,
+                                              const Progress& progress) {
   if (!(spacing > 0 && std::isfinite(spacing)))
     return InputError{Errc::kInvalidArgument, "spacing must be positive"};
   const DepthSettings depth{settings.occlusion_resolution, spacing, settings.depth_tolerance};
@@ -144,7 +144,16 @@ Result<Observations, InputError> observe(const Capture& capture, std::span<const
     return capture.mesh.triangles.empty() ? DepthBuffer(camera, occluders, depth)
                                           : DepthBuffer(camera, capture.mesh, depth);
   };
-  SLF_TRY(SeenPoints seen, observe_points(capture, cameras, points, depth_of, settings, progress));
+  return observe_points(capture, cameras, points, depth_of, settings, progress);
+}
+
+Result<Observations, InputError> observe(const Capture& capture, std::span<const int> cameras,
+                                         const ObservedPoints& points,
+                                         std::span<const std::array<float, 3>> occluders,
+                                         double spacing, const ObserveSettings& settings,
+                                         const Progress& progress) {
+  SLF_TRY(SeenPoints seen,
+          observe_behind(capture, cameras, points, occluders, spacing, settings, progress));
   if (seen.observations.camera.empty())
     return nothing_seen(seen.counts, cameras.size(), points.positions.size());
   return std::move(seen.observations);

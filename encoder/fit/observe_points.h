@@ -27,4 +27,15 @@ Result<SeenPoints, InputError> observe_points(const Capture& capture, std::span<
                                               const ObserveSettings& settings,
                                               const Progress& progress = {});
 
+/// The same behind the capture's mesh or else `occluders`, as observe() has it.
+/// @errors kInvalidArgument: a spacing that is not positive
+Result<SeenPoints, InputError> observe_behind(const Capture& capture, std::span<const int> cameras,
+                                              const ObservedPoints& points,
+                                              std::span<const std::array<float, 3>> occluders,
+                                              double spacing, const ObserveSettings& settings,
+                                              const Progress& progress);
+
+/// What observe() says where no camera sees anything.
+InputError nothing_seen(const SightingCounts& counts, std::size_t cameras, std::size_t points);
+
 }  // namespace slf

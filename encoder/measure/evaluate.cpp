@@ -9,6 +9,7 @@
 #include "base/input_error.h"
 #include "capture/nearest.h"
 #include "encoder/fit/observe_camera.h"
+#include "encoder/fit/observe_points.h"
 #include "encoder/measure/captured_view.h"
 #include "encoder/measure/evaluate_images.h"
 #include "lightfield/colour.h"
@@ -112,12 +113,15 @@ Result<Quality, InputError> evaluate(const ViewMaps& maps, const Capture& captur
       *std::min_element(settings.deltas_degrees.begin(), settings.deltas_degrees.end());
   observing.depth_tolerance = settings.depth_tolerance;
   observing.threads = settings.threads;
-  SLF_TRY(const Observations seen, observe(capture, cameras, points, capture.cloud.positions,
-                                           surface.spacing, observing, progress));
+  SLF_TRY(const SeenPoints seen, observe_behind(capture, cameras, points, capture.cloud.positions,
+                                                surface.spacing, observing, progress));
+  const bool nothing = seen.observations.camera.empty();
+  const InputError unseen = nothing_seen(seen.counts, cameras.size(), points.positions.size());
+  if (nothing && !settings.images) return unseen;
 
   Quality quality;
-  const auto errors =
-      point_errors(maps, capture, points, seen, settings.deltas_degrees, settings.threads);
+  const auto errors = point_errors(maps, capture, points, seen.observations,
+                                   settings.deltas_degrees, settings.threads);
   for (std::size_t d = 0; d < errors.size(); ++d) {
     const ErrorSum& e = errors[d];
     quality.points.push_back({settings.deltas_degrees[d],
@@ -133,6 +137,7 @@ Result<Quality, InputError> evaluate(const ViewMaps& maps, const Capture& captur
     const Renderer renderer(maps, over_black);
     const DrawPicture draw = [&](const Camera& camera) { return renderer.render(camera); };
     SLF_CHECK(evaluate_images(draw, capture, cameras, surface, settings, progress, quality));
+    if (nothing && !(quality.image.coverage > 0)) return unseen;
   }
   return quality;
 }

@@ -13,6 +13,7 @@ namespace slf {
 struct StartingPoints {
   PointCloud cloud;  ///< with normals
   StartId start = StartId::kHull;
+  std::size_t left_out = 0;  ///< of the capture's points: object_points()
 };
 
 /// A ball that the cameras look at.

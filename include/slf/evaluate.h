@@ -34,7 +34,8 @@ struct EvaluateSettings {
   std::function<Result<Done, InputError>(int camera, const Image& map)> error_map;
 };
 
-/// Quality over the views within one δ′. dB; infinite where nothing differs.
+/// Quality over the views within one δ′. dB; infinite where nothing differs, NaN where the capture
+/// hides all points.
 struct PointQuality {
   double delta_degrees = 10;
   double psnr = 0;       ///< pooled over points, cameras and channels
@@ -82,7 +83,8 @@ struct Quality {
 /// squared error of radiance clamped and rounded to 8 bit, peak 255. Normals and visibility are
 /// those of the capture (nearest point), so that all codecs are judged on one set. Spec annex D.
 /// @errors kInvalidArgument: no cameras or points, a camera index or δ′ out of range; those of
-///         observe, load_image and settings.error_map.
+///         observe, load_image and settings.error_map. Points that no camera sees are none where
+///         pictures show something.
 /// The same for any thread count, but for render_seconds.
 Result<Quality, InputError> evaluate(const ViewMaps& maps, const Capture& capture,
                                      std::span<const int> cameras, const EvaluateSettings& settings,

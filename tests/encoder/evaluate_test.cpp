@@ -104,6 +104,23 @@ TEST_F(EvaluateTest, TheSameForAnyThreadCount) {
   }
 }
 
+TEST_F(EvaluateTest, PicturesAreJudgedWhereTheCaptureHidesAllPoints) {
+  const ViewMaps maps(constant_light_field(test::plane(32, 0), {{100, 100, 100}}, 5));
+  add_photograph({110, 100, 100});
+  for (auto& position : capture_.cloud.positions) position[2] -= 40;
+  const std::vector<int> first{0};
+  const auto quality = evaluate(maps, capture_, first, {});
+  ASSERT_TRUE(quality) << quality.error().message;
+  EXPECT_EQ(quality->points[0].observations, 0u);
+  EXPECT_TRUE(std::isnan(quality->points[0].psnr));
+  EXPECT_NEAR(quality->image.psnr, 10 * std::log10(255.0 * 255 * 3 / 100), 0.3);
+  EvaluateSettings points_alone;
+  points_alone.images = false;
+  const auto refused = evaluate(maps, capture_, first, points_alone);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("no camera sees any point"), std::string::npos);
+}
+
 TEST_F(EvaluateTest, WhatCannotBeEvaluatedIsRefused) {
   const ViewMaps maps(constant_light_field(test::plane(32, 0), {{90, 90, 90}}, 5));
   add_photograph({90, 90, 90});

@@ -11,6 +11,9 @@
 #include "capture/nearest.h"
 #include "capture/object_outline.h"
 #include "capture/surface_points.h"
+#include "encoder/other_start.h"
+#include "encoder/train/chance.h"
+#include "encoder/train/object_points.h"
 #include "slf/encoder.h"
 #include "traced_scene.h"
 
@@ -51,8 +54,52 @@ class StartingPointsTest : public testing::Test {
     return capture;
   }
 
+  /// The capture with some of the object's points, and `strays` anywhere around the cameras' axes.
+  static Capture with_strays(std::size_t points, std::size_t strays) {
+    Capture capture = traced_->capture;
+    Chance chance{1};
+    const std::size_t every = traced_->exact.positions.size() / points;
+    for (std::size_t p = 0; p < points; ++p)
+      capture.cloud.positions.push_back(traced_->exact.positions[p * every]);
+    for (std::size_t s = 0; s < strays; ++s) {
+      std::array<float, 3> at{};
+      for (float& x : at) x = float((4 * chance.share() - 2) * traced_->radius);
+      capture.cloud.positions.push_back(at);
+    }
+    return capture;
+  }
+
   static inline test::TracedScene* traced_ = nullptr;
 };
+
+TEST_F(StartingPointsTest, PointsOutsideOfTheObjectAreLeftOutWhereTheyAreMany) {
+  const Capture capture = with_strays(400, 4000);
+  const auto own = object_points(capture, traced_->cameras, 0);
+  ASSERT_TRUE(own) << own.error().message;
+  EXPECT_GT(own->left_out, 3000u);
+  EXPECT_EQ(own->left_out + own->cloud.positions.size(), capture.cloud.positions.size());
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < 400; ++p)
+    kept += std::count(own->cloud.positions.begin(), own->cloud.positions.end(),
+                       capture.cloud.positions[p]) > 0;
+  EXPECT_GT(kept, 360u);  // some bare metal is as grey as what is behind it
+  const auto few = object_points(with_strays(400, 40), traced_->cameras, 0);
+  ASSERT_TRUE(few);
+  EXPECT_EQ(few->left_out, 0u);
+}
+
+TEST_F(StartingPointsTest, StraysDoNotChangeWhereTrainingStarts) {
+  EncoderSettings settings;
+  settings.surface = Surface::kSplats;
+  const auto clean = other_start(with_strays(400, 0), traced_->cameras, settings);
+  const auto strewn = other_start(with_strays(400, 4000), traced_->cameras, settings);
+  ASSERT_TRUE(clean && strewn && *clean && *strewn);
+  EXPECT_EQ((*clean)->start, StartId::kHull);
+  EXPECT_EQ((*strewn)->start, StartId::kHull);
+  EXPECT_EQ((*clean)->cloud.positions, (*strewn)->cloud.positions);
+  EXPECT_EQ((*clean)->left_out, 0u);
+  EXPECT_GT((*strewn)->left_out, 3000u);
+}
 
 TEST_F(StartingPointsTest, CamerasLookAtTheObject) {
   const auto ball = looked_at(traced_->capture, traced_->cameras);
