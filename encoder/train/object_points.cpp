@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kCamerasAtFirst = 16;
 constexpr std::size_t kPointsAtFirst = 4096;
 constexpr double kElsewhere = 0.25;  // of the points
-constexpr double kSlack = 2;         // pixels that outlines may be off by
+constexpr double kSlack = 0.04;      // of a photograph's width: hulls and noise lie about an object
 
 /// Evenly from first to last.
 template <class T>
@@ -24,6 +24,12 @@ std::vector<T> some_of(std::span<const T> all, std::size_t most) {
   const std::size_t count = std::min(all.size(), most);
   for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
   return some;
+}
+
+int widest(const Capture& capture, std::span<const int> cameras) {
+  int width = 0;
+  for (const int c : cameras) width = std::max(width, capture.cameras[std::size_t(c)].width);
+  return width;
 }
 
 /// [points] 1: the object may be there.
@@ -52,7 +58,8 @@ Result<ObjectPoints, InputError> object_points(const Capture& capture, std::span
                                                int threads) {
   using Points = std::span<const std::array<float, 3>>;
   const Points all = capture.cloud.positions;
-  const double slack = kSlack * choose_density(capture, cameras).pixel;
+  const double pixel = choose_density(capture, cameras).pixel;
+  const double slack = kSlack * double(widest(capture, cameras)) * pixel;
   const auto elsewhere = [&](const std::vector<Outline>& outlines, Points points) {
     const auto inside = within(outlines, points, slack, threads);
     return double(std::count(inside.begin(), inside.end(), 0)) > kElsewhere * double(points.size());
