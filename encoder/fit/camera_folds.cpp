@@ -13,10 +13,10 @@ constexpr int kFolds = 4;
 
 }  // namespace
 
-std::vector<int> camera_folds(std::span<const Vec3> towards_camera) {
+std::vector<int> camera_folds(std::span<const Vec3> towards_camera, std::size_t groups) {
   const std::size_t cameras = towards_camera.size();
-  const std::size_t clusters =
-      std::min(cameras, std::clamp<std::size_t>(cameras / 5, std::size_t{kFolds}, 32));
+  const std::size_t least = std::clamp<std::size_t>(cameras / 2, std::size_t{kFolds}, groups);
+  const std::size_t clusters = std::min(cameras, std::clamp<std::size_t>(cameras / 5, least, 32));
   const auto cosine = [&](std::size_t a, std::size_t b) {
     const Vec3 &x = towards_camera[a], &y = towards_camera[b];
     return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];

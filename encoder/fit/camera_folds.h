@@ -19,7 +19,9 @@ struct CameraFolds {
 
 /// [cameras] of 0 .. 3. Cameras close to each other, as seen from the object, are in the same part;
 /// so what is held out has no neighbour left.
-std::vector<int> camera_folds(std::span<const Vec3> towards_camera);
+/// @param groups  of neighbours, 4 to 32: a fifth of the cameras, but so many where two cameras a
+///                group are left, so that few cameras are not held out by whole sides
+std::vector<int> camera_folds(std::span<const Vec3> towards_camera, std::size_t groups = 4);
 
 /// The same of the cameras of observations, each in the mean direction of its observations.
 /// @param normals  those that directions are mirrored at; none: directions of the world

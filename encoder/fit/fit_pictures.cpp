@@ -18,6 +18,7 @@ namespace {
 constexpr std::array kPulls = {1.0, 8.0};
 constexpr int kTriedSteps = 5;
 constexpr std::size_t kLeastSearchedCameras = 8;
+constexpr std::size_t kGroupsHeldOut = 16;
 
 using Which = std::function<bool(std::size_t view)>;
 
@@ -116,7 +117,9 @@ Result<PictureFit, InputError> fit_to_pictures(const PictureFitInput& input,
   next();
   release(colours);
   release(z);
-  SLF_TRY(*held_out, HeldOutPictures::of({input, settings, pictures, eyes, fold, fit.pull}));
+  const std::vector<int> parts_held_out = camera_folds(towards(eyes, cloud), kGroupsHeldOut);
+  SLF_TRY(*held_out, HeldOutPictures::of({input, settings, pictures, eyes, parts_held_out, fit.pull,
+                                          coefficients}));
   return fit;
 }
 

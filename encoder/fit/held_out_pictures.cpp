@@ -113,7 +113,12 @@ Result<Done, InputError> HeldOutPictures::fit(const Input& input,
                                               const std::vector<bool>& held_out) {
   const PictureFitInput& of = input.of;
   grid_ = of.grid;
-  for (const std::uint32_t p : points) positions_.push_back(of.positions[p]);
+  const std::size_t row = input.coefficients.size() / of.positions.size();
+  for (const std::uint32_t p : points) {
+    positions_.push_back(of.positions[p]);
+    const auto fitted = input.coefficients.subspan(row * p, row);
+    coded_.insert(coded_.end(), fitted.begin(), fitted.end());
+  }
   std::vector<std::uint32_t> all(points.size());
   std::iota(all.begin(), all.end(), 0u);
   std::vector<bool> used(held_out.size());
@@ -142,6 +147,14 @@ Result<Done, InputError> HeldOutPictures::fit(const Input& input,
   }
   system_ = system_of(views_);
   return Done{};
+}
+
+double HeldOutPictures::mean_squared_change(std::span<const float> from,
+                                            std::span<const float> to) const {
+  PictureError sum;
+  for (const PictureError& e : system_->changes(system_->colours(from), system_->colours(to)))
+    sum += e;
+  return sum.squares / (3 * sum.trust);
 }
 
 double HeldOutPictures::mean_squared_error(std::span<const float> coefficients) const {

@@ -23,10 +23,12 @@ class HeldOutPictures {
     std::span<const Vec3> eyes;  ///< [cameras]
     std::span<const int> fold;   ///< [cameras] camera_folds
     double pull;                 ///< PictureFit::pull
+    std::span<const float> coefficients;  ///< [P][K][3] of the fit that all cameras have
   };
 
-  /// Holds a fold out, as the pull of a picture fit and the settings of a fit are searched: whole
-  /// groups of neighbours, so the error is that of views between what was photographed.
+  /// Holds a quarter of the cameras out, in groups of neighbours, so that the error is that of
+  /// views between what was photographed: small groups where cameras are few, else it is that of
+  /// views that nothing is near.
   /// @return the points may be none, where no camera or no pixel can be held out: see cameras(),
   ///         pixels()
   /// @errors those of fit_view_maps
@@ -37,10 +39,14 @@ class HeldOutPictures {
   std::size_t pixels() const { return pixels_; }    ///< of their photographs
   const std::vector<Voxel>& positions() const { return positions_; }        ///< Morton order
   const std::vector<float>& coefficients() const { return coefficients_; }  ///< [points][K][3]
-  double seconds() const { return seconds_; }                               ///< that the fit took
+  /// [points][K][3] of the same points, by all cameras: what is coded.
+  const std::vector<float>& coded() const { return coded_; }
+  double seconds() const { return seconds_; }  ///< that the fit took
 
   /// The error over pixels and channels of the held-out pictures, colours clamped to 0 .. 255.
   double mean_squared_error(std::span<const float> coefficients) const;
+  /// By how much two sets of coefficients differ in the same pixels and channels.
+  double mean_squared_change(std::span<const float> from, std::span<const float> to) const;
 
   HeldOutPictures(const HeldOutPictures&) = delete;
   HeldOutPictures& operator=(const HeldOutPictures&) = delete;
@@ -52,7 +58,7 @@ class HeldOutPictures {
 
   Grid grid_;
   std::vector<Voxel> positions_;
-  std::vector<float> coefficients_;
+  std::vector<float> coefficients_, coded_;
   PictureViews views_;                     // those that are held out; the others are empty
   std::unique_ptr<PictureSystem> system_;  // of the members above
   std::size_t cameras_ = 0, pixels_ = 0;

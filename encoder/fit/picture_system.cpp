@@ -141,6 +141,23 @@ std::vector<PictureError> PictureSystem::errors(const Vector& colours) const {
   return errors;
 }
 
+std::vector<PictureError> PictureSystem::changes(const Vector& from, const Vector& to) const {
+  std::vector<PictureError> errors(pictures_.views.size());
+  parallel_ranges(errors.size(), 1, threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const PictureView& view = pictures_.views[v];
+      const auto before = gathered(view, from, true), after = gathered(view, to, true);
+      for (std::size_t i = 0; i < view.pixels(); ++i) {
+        Colour4 change = mixed(view, i, after);
+        add_scaled(-1, mixed(view, i, before), change);
+        errors[v].squares += double(view.trust[i] * square(change));
+        errors[v].trust += double(view.trust[i]);
+      }
+    }
+  });
+  return errors;
+}
+
 void PictureSystem::improve(const std::function<bool(std::size_t)>& used, int steps,
                             Vector& colours, Vector* z) const {
   std::vector<bool> uses;

@@ -60,6 +60,8 @@ class PictureSystem {
   void set_trust(const Vector& colours, double outlier);
   /// Trusted error of each view.
   std::vector<PictureError> errors(const Vector& colours) const;
+  /// The same of the differences between pictures of two sets of colours.
+  std::vector<PictureError> changes(const Vector& from, const Vector& to) const;
 
   /// Colours changed by `steps` of conjugate gradients on the views that `used` tells.
   /// @param z  is added to; or null

@@ -36,7 +36,7 @@ class ChooseStep : public EndToEnd {
 
 TEST_F(ChooseStep, CostsPicturesThatNoFitHasSeenNoMoreThanIsStated) {
   EncoderSettings settings = quick();
-  settings.quality_loss = 0.25;
+  settings.quality_loss = 0.6;
   const Encoded e = encoded_with(settings);
   ASSERT_EQ(e.step.origin, ChosenStep::kChosen) << reason_of(e.step);
   EXPECT_GT(e.q, kPlainQ);
@@ -45,6 +45,26 @@ TEST_F(ChooseStep, CostsPicturesThatNoFitHasSeenNoMoreThanIsStated) {
   // What is measured on a sample of the input tells of others within some hundredths of a decibel.
   EXPECT_LT(fine - psnr(e, "evaluation"), settings.quality_loss + 0.05);
   EXPECT_LT(fine - psnr(encoded_with(e.q / 2), "evaluation"), fine - psnr(e, "evaluation") + 0.05);
+}
+
+TEST_F(ChooseStep, CostsPicturesOfFewCamerasNoMoreThanIsStated) {
+  const std::vector<int> dense = *split_cameras(capture_, "");
+  std::vector<int> few;
+  for (std::size_t i = 0; i < 27; ++i) few.push_back(dense[i * dense.size() / 27]);
+  const auto with = [&](double q, double loss) {
+    EncoderSettings settings = quick();
+    settings.q = q;
+    settings.quality_loss = loss;
+    auto e = encode(capture_, few, settings);
+    EXPECT_TRUE(e) << e.error().message;
+    return e ? *std::move(e) : Encoded{};
+  };
+  const double fine = psnr(with(0.5, 0.1), "evaluation");
+  for (const double loss : {0.1, 0.6}) {
+    const Encoded e = with(kAutomaticQ, loss);
+    ASSERT_EQ(e.step.origin, ChosenStep::kChosen) << reason_of(e.step);
+    EXPECT_LT(fine - psnr(e, "evaluation"), std::max(loss, e.step.loss) + 0.15) << e.q;
+  }
 }
 
 TEST_F(ChooseStep, IsNeverFinerThanThePlainOneAndSaysWhatThatCosts) {
