@@ -204,6 +204,8 @@ Result<Encoded, InputError> encode_from(const Capture& capture, StartId start,
                                         chooses_step(settings, cameras.size())));
   if (!cameras.empty()) settings.fit = job.fit.chosen.settings;
   report_fit(job);
+  if (!cameras.empty())
+    SLF_CHECK(check_unseen(encoded.unobserved_points, encoded.points, encoded.warnings));
   SLF_CHECK(resolve_step(job));
   watch.lap();
   if (progress) progress("code", 0);

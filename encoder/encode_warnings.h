@@ -20,4 +20,9 @@ std::string left_out_warning(std::size_t left_out, std::size_t points);
 void warn_of_cameras(std::span<const CameraTrust> cameras, std::size_t used, const Capture& capture,
                      std::vector<std::string>& warnings);
 
+/// Warns of points that no photograph shows, where they are most.
+/// @errors kInvalidInput: nearly all are
+Result<Done, InputError> check_unseen(std::size_t unseen, std::size_t points,
+                                      std::vector<std::string>& warnings);
+
 }  // namespace slf

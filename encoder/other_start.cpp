@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/other_start.h"
 
+#include <string>
 #include <utility>
 
 #include "encoder/fit_capture.h"
@@ -25,6 +26,11 @@ Result<std::optional<StartingPoints>, InputError> other_start(const Capture& cap
   using Start = std::optional<StartingPoints>;
   if (cameras.empty()) return Start{};
   if (capture.cloud.positions.empty()) {
+    if (cameras.size() < kLeastTrainingCameras)
+      return InputError{Errc::kInvalidInput,
+                        "the capture has no points, and from " + std::to_string(cameras.size()) +
+                            " photographs none can be found: 5 at least, better 30 and more, or "
+                            "points of the object"};
     SLF_TRY(StartingPoints points, starting_points(capture, cameras, settings.threads));
     return Start{std::move(points)};
   }

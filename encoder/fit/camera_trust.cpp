@@ -22,6 +22,8 @@ constexpr double kLeastShare = 0.65;         // of the peers' agreement that is 
 constexpr double kLeastPeerAgreement = 0.7;  // of peers that can be judged by
 constexpr std::size_t kEnoughPatches = 24;   // that have a pattern; of fewer, chance decides
 constexpr double kMostColourRatio = 16;      // 7.4 at most of cameras that belong: highlights
+constexpr std::size_t kEnoughColours = 12;   // cameras: of fewer, which lie far apart, one that
+                                             // belongs had more than 16
 constexpr double kLeastLogGain = 0.08, kLeastGainOverSpread = 0.6;
 constexpr std::size_t kLeastGainSamples = 100;
 constexpr double kMostClipped = 0.5, kMostClippedOfOthers = 0.25;
@@ -63,8 +65,9 @@ bool can_be_judged(const CameraAgreement& a) {
 }
 
 /// How far beyond the threshold a camera is; above 1 it is dropped.
-double excess(const CameraAgreement& a) {
-  const double of_colour = a.colour_ratio / kMostColourRatio;
+/// @param cameras  how many there are
+double excess(const CameraAgreement& a, std::size_t cameras) {
+  const double of_colour = cameras < kEnoughColours ? 0 : a.colour_ratio / kMostColourRatio;
   if (!can_be_judged(a)) return of_colour;
   return std::max(of_colour, kLeastShare * a.peer_agreement / std::max(a.agreement, 0.01));
 }
@@ -127,9 +130,10 @@ std::optional<std::size_t> most_foreign(const Check& check) {
   double most = 1;
   for (std::size_t c = 0; c < check.states.size(); ++c) {
     const CameraAgreement& a = check.agreement[c];
-    if (check.states[c].dropped || !(excess(a) > most)) continue;
+    const double beyond = excess(a, check.cameras);
+    if (check.states[c].dropped || !(beyond > most)) continue;
     if (!check.states[c].corrected && gain_of(a)) continue;
-    most = excess(a);
+    most = beyond;
     found = c;
   }
   return found;

@@ -111,12 +111,10 @@ Result<TrainedSurfels, InputError> train_gaussian_surfels(const Capture& capture
   const bool outlined = are_outlined(outlines.size(), cameras.size());
   if (!outlined) outlines.clear();
   if (settings.cache != nullptr) settings.cache->outlined = outlined;
-  if (settings.surfels == 0)
-    training.surfels = std::max<std::size_t>(training.surfels / 2, 1);
-  else
-    training.surfels = std::min(
-        training.surfels,
-        std::max(std::size_t(pixels_shown(outlines, start.views) / kPixelsOfSplat), kFewestSplats));
+  if (settings.surfels == 0) training.surfels = std::max<std::size_t>(training.surfels / 2, 1);
+  const double taught = pixels_shown(outlines, start.views) / kPixelsOfSplat;
+  if (settings.twists == nullptr)
+    training.surfels = std::min(training.surfels, std::max(std::size_t(taught), kFewestSplats));
   if (outlined) SLF_CHECK(charge_for_hiding(capture, settings.threads, start.views));
   TrainedSurfels surfels = first_surfels(start, settings);
   if (!outlined) {

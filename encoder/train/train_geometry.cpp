@@ -15,7 +15,7 @@
 namespace slf {
 namespace {
 
-constexpr std::size_t kLeastCameras = 5, kLeastPoints = 50;
+constexpr std::size_t kLeastPoints = 50;
 constexpr double kPixelsPerVoxel = 1.6;  // between points: docs/decisions/020
 constexpr double kTrainedBefore = 0.8;   // of the iterations, with some of the photographs
 constexpr double kFewOutside = 0.002, kManyOutside = 0.02;  // of the surfels, of a box
@@ -61,7 +61,7 @@ double sharpest_pixel(const Capture& capture, std::span<const int> cameras,
 }  // namespace
 
 std::string training_obstacle(const Capture& capture, std::span<const int> cameras) {
-  if (cameras.size() < kLeastCameras) return "too few cameras";
+  if (cameras.size() < kLeastTrainingCameras) return "too few cameras";
   if (capture.cloud.positions.size() < kLeastPoints) return "too few points";
   return {};
 }

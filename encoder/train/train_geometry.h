@@ -15,6 +15,8 @@
 
 namespace slf {
 
+inline constexpr std::size_t kLeastTrainingCameras = 5;  // fewer show no place twice over
+
 class CameraTwists;
 struct TrainingView;
 

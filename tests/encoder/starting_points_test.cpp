@@ -11,6 +11,7 @@
 #include "capture/nearest.h"
 #include "capture/object_outline.h"
 #include "capture/surface_points.h"
+#include "encoder/encode_warnings.h"
 #include "encoder/other_start.h"
 #include "encoder/train/chance.h"
 #include "encoder/train/object_points.h"
@@ -194,6 +195,26 @@ TEST_F(StartingPointsTest, PhotographsAndCamerasBecomeALightField) {
   ASSERT_TRUE(encoded) << encoded.error().message;
   EXPECT_EQ(encoded->surface.start, StartId::kHull);
   EXPECT_GT(encoded->points, 1000u);
+}
+
+TEST_F(StartingPointsTest, TooFewPhotographsToFindPointsByAreRefused) {
+  const std::vector<int> four{0, 6, 12, 18};
+  const auto encoded = encode(traced_->capture, four, EncoderSettings{});
+  ASSERT_FALSE(encoded);
+  EXPECT_EQ(encoded.error().code, Errc::kInvalidInput);
+  EXPECT_NE(encoded.error().message.find("from 4 photographs"), std::string::npos);
+}
+
+TEST(CheckUnseen, ACloudThatHardlyAnyPhotographShowsIsRefused) {
+  std::vector<std::string> warnings;
+  EXPECT_TRUE(check_unseen(10, 100, warnings));
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_TRUE(check_unseen(60, 100, warnings));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("40 of 100 points"), std::string::npos);
+  const auto refused = check_unseen(34'990, 35'000, warnings);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("masks may be inverted"), std::string::npos);
 }
 
 TEST_F(StartingPointsTest, AMeshIsTrainedWhereItIsAskedFor) {
