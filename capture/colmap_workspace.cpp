@@ -78,6 +78,13 @@ std::optional<ColmapPlace> find_colmap(const fs::path& directory) {
   return std::nullopt;
 }
 
+/// How the mask of the first photograph may be named.
+std::string names_of_mask(const std::vector<Camera>& cameras) {
+  if (cameras.empty()) return "NAME.png";
+  const fs::path name = cameras[0].name;
+  return fs::path(name).replace_extension(".png").string() + " or " + name.string() + ".png";
+}
+
 void find_colmap_masks(Import& import) {
   const fs::path folder = import.capture.root / "masks";
   std::error_code error;
@@ -92,7 +99,13 @@ void find_colmap_masks(Import& import) {
     masks.push_back(found == places.end() ? "" : ("masks" / *found).string());
   }
   const auto without = std::count(masks.begin(), masks.end(), "");
-  if (static_cast<std::size_t>(without) == masks.size()) return;
+  if (static_cast<std::size_t>(without) == masks.size()) {
+    if (!fs::is_empty(folder, error))
+      import.capture.warnings.push_back(
+          folder.string() + ": no file there is the mask of a photograph, which is named as " +
+          names_of_mask(import.capture.cameras) + "; no mask is used");
+    return;
+  }
   if (without > 0)
     import.capture.warnings.push_back(folder.string() + ": no mask of " + std::to_string(without) +
                                       " of " + std::to_string(masks.size()) + " photographs");

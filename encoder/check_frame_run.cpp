@@ -26,7 +26,7 @@ Result<Done, InputError> check_frame_run(std::size_t frames, const EncoderSettin
   if (f.group < 1) return refused("a group has one at the least");
   if (f.part < 0 || f.part >= f.parts) return refused("part: 0 to the number of parts - 1");
   if (frames_of_part(frames, f).count == 0)
-    return refused("there are more parts than groups of frames");
+    return refused("there are more parts than groups of frames: fewer parts, or smaller groups");
   if (f.parts > 1 && s.target_bitrate > 0) return refused("a bitrate is of all parts together");
   if (!(f.rate > 0) || !std::isfinite(f.rate)) return refused("so many a second: above 0");
   return Done{};

@@ -166,9 +166,16 @@ std::string density_text(const Grid& grid, const Density& density) {
                                            : "\n");
 }
 
-nlohmann::ordered_json bytes_by_type_json(const StreamInfo& info) {
+constexpr std::uint64_t kSignatureBytes = 8;  // spec 7
+
+nlohmann::ordered_json bytes_by_type_json(const StreamInfo& info, std::uint64_t file_bytes) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  for (const TypeTotal& total : totals(info)) json[total.type] = total.bytes;
+  std::uint64_t rest = file_bytes;
+  for (const TypeTotal& total : totals(info)) {
+    json[total.type] = total.bytes;
+    rest -= std::min(rest, std::uint64_t{total.bytes});
+  }
+  if (rest > 0) json["signature"] = std::min(rest, kSignatureBytes);  // more are other frames'
   return json;
 }
 

@@ -27,7 +27,7 @@ nlohmann::ordered_json settings_json(const StreamInfo& info);
 nlohmann::ordered_json density_json(const Grid& grid, const Density& density);
 std::string density_text(const Grid& grid, const Density& density);
 
-nlohmann::ordered_json bytes_by_type_json(const StreamInfo& info);
+nlohmann::ordered_json bytes_by_type_json(const StreamInfo& info, std::uint64_t file_bytes);
 std::string bytes_by_type_text(const StreamInfo& info, std::uint64_t file_bytes);
 
 double bits_per_point(std::uint64_t bytes, std::uint64_t points);

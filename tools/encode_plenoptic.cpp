@@ -63,7 +63,7 @@ nlohmann::ordered_json plenoptic_json(const Run& run) {
           {"grid_bits", run.cloud.grid.bits},
           {"bits_per_point",
            {{"geometry", bits.geometry}, {"colour", bits.colour}, {"file", bits.file}}},
-          {"bytes_by_type", bytes_by_type_json(run.info)},
+          {"bytes_by_type", bytes_by_type_json(run.info, e.stream.size())},
           {"correction_bytes", e.rest_bytes},
           {"seconds", {{"load", run.load}, {"fit", e.seconds_fit}, {"code", e.seconds_code}}},
           {"peak_memory_mib", peak_memory_mib()},

@@ -64,13 +64,12 @@ Judge judge_of(const ViewMaps& maps, const Capture& capture) {
   };
 }
 
-/// The images that a file was made from: of its split, or the one that is asked for, without those
-/// that the encoder dropped as of something else.
+/// The images that a file was made from: of its split, without those that the encoder dropped as of
+/// something else.
 Result<std::vector<int>, Failure> input_of(const EvalOptions& given, const Capture& capture,
                                            const Metadata& metadata) {
-  const std::string split = given.split_given ? given.split : metadata_value(metadata, "split");
+  const std::string split = metadata_value(metadata, "split");
   SLF_TRY(std::vector<int> input, from(given.capture, split_cameras(capture, split)));
-  if (given.split_given) return input;
   std::istringstream dropped(metadata_value(metadata, "cameras_dropped"));
   for (int camera = 0; dropped >> camera;) std::erase(input, camera);
   return input;
@@ -81,15 +80,21 @@ Result<std::vector<int>, Failure> input_of(const EvalOptions& given, const Captu
 Result<std::vector<Measured>, Failure> measure(const EvalOptions& given, const Capture& capture,
                                                const Metadata& metadata, const Judge& judge,
                                                const Judge& unquantised) {
-  SLF_TRY(std::vector<int> input, input_of(given, capture, metadata));
   SLF_TRY(std::vector<int> held_out, from(given.capture, split_cameras(capture, "evaluation")));
-  const std::size_t all = held_out.size();
-  std::erase_if(held_out,
-                [&](int i) { return std::find(input.begin(), input.end(), i) != input.end(); });
-  if (held_out.size() < all)
-    warn(std::to_string(all - held_out.size()) +
-             " evaluation images were input and are not held out",
-         given.common.quiet);
+  const auto erase_those_of = [&](const std::vector<int>& some) {
+    return std::erase_if(
+        held_out, [&](int i) { return std::find(some.begin(), some.end(), i) != some.end(); });
+  };
+  std::vector<int> input;
+  if (given.split_given) {
+    SLF_TRY(input, from(given.capture, split_cameras(capture, given.split)));
+    erase_those_of(input);
+  } else {
+    SLF_TRY(input, input_of(given, capture, metadata));
+    if (const std::size_t known = erase_those_of(input); known > 0)
+      warn(std::to_string(known) + " evaluation images were input and are not held out",
+           given.common.quiet);
+  }
 
   for (auto& [which, cameras] : {std::pair{"input", &input}, std::pair{"held-out", &held_out}})
     if (const auto w = leave_out_empty(capture, which, given.common.threads, *cameras); !w.empty())

@@ -39,7 +39,7 @@ Subject subject_of(const StreamFile& stream, LightField field, std::uint64_t byt
   return Subject{std::move(field),
                  bytes,
                  stream.info.metadata,
-                 alone ? bytes_by_type_json(stream.info) : nlohmann::ordered_json(),
+                 alone ? bytes_by_type_json(stream.info, stream.bytes.size()) : nlohmann::ordered_json(),
                  settings_json(stream.info),
                  std::move(seconds),
                  alone ? bytes_by_type_text(stream.info, stream.bytes.size()) : ""};

@@ -65,7 +65,7 @@ nlohmann::ordered_json report_json(const Encoded& e, const StreamInfo& info,
   json["merged"] = e.merged;
   json["surface"] = surface_json(e.surface);
   json["bits_per_point"] = bits_per_point(e.stream.size(), e.points);
-  json["bytes_by_type"] = bytes_by_type_json(info);
+  json["bytes_by_type"] = bytes_by_type_json(info, e.stream.size());
   json["cameras"] = cameras;
   json["exposure"] = exposure_json(e.exposure);
   json["poses"] = poses_json(e.poses);

@@ -100,7 +100,7 @@ nlohmann::ordered_json info_json(const StreamInfo& info, std::uint64_t bytes,
   json["layers"] = info.layers;
   json["step"] = info.step;
   json["transforms"] = transforms_json(info);
-  json["bytes_by_type"] = bytes_by_type_json(info);
+  json["bytes_by_type"] = bytes_by_type_json(info, bytes);
   json["units"] = nullptr;
   json["metadata"] = metadata_json(info.metadata);
   return json;

@@ -104,6 +104,20 @@ TEST(ColmapFolder, MasksAreFoundByTheNamesOfPhotographs) {
   EXPECT_EQ(image->data[7], 255);
 }
 
+TEST(ColmapFolder, MasksOfOtherNamesAreNotLeftOutInSilence) {
+  const TemporaryDirectory directory;
+  write_colmap_binary(directory.path());
+  const Image mask{kWidth, kHeight, 3, std::vector<std::uint8_t>(3 * kWidth * kHeight, 1)};
+  fs::create_directories(directory / "masks");
+  const auto empty = load_capture(directory.path());
+  ASSERT_TRUE(empty) << empty.error().message;
+  EXPECT_THAT(empty->warnings, Not(Contains(HasSubstr("mask"))));
+  ASSERT_TRUE(write_png(directory / "masks/mask_a.png", mask));
+  const auto capture = load_capture(directory.path());
+  ASSERT_TRUE(capture) << capture.error().message;
+  EXPECT_THAT(capture->warnings, Contains(HasSubstr("named as a.png or a.png.png")));
+}
+
 TEST(ColmapFolder, PhotographsMayBeElsewhere) {
   const TemporaryDirectory directory;
   write_colmap_binary(directory / "model");

@@ -246,33 +246,6 @@ TEST_F(CameraTrustTest, FewerThanFourCamerasAreNotJudged) {
   for (const CameraTrust& t : *trust) EXPECT_EQ(t.verdict, CameraVerdict::kKept);
 }
 
-TEST_F(CameraTrustTest, CamerasOfASparseCaptureThatBelongAreKept) {
-  synth::SynthSettings settings;
-  settings.scene = "can";
-  settings.width = 200;
-  settings.height = 150;
-  settings.circles = 3;
-  settings.per_circle = 12;
-  const auto made = synth::synthesise(settings, root_ / "sparse", {});
-  ASSERT_TRUE(made) << made.error().message;
-  const auto capture = load_capture(root_ / "sparse");
-  ASSERT_TRUE(capture) << capture.error().message;
-  for (const std::vector<int>& few :
-       {std::vector<int>{0, 6, 12, 24, 30}, {0, 5, 10, 15, 20, 25, 30}, {0, 7, 14, 21, 28, 35}}) {
-    EncoderSettings plain = settings_of(Preset::kDefault, 3);
-    plain.surface = Surface::kGiven;
-    const auto cloud = voxelise_capture(*capture, few, plain);
-    ASSERT_TRUE(cloud);
-    const ObservedPoints points = world_points(*cloud);
-    const auto seen = observe(*capture, few, points, points.positions, cloud->grid.step, {});
-    ASSERT_TRUE(seen) << seen.error().message;
-    const auto trust = check_cameras(*seen, 0);
-    ASSERT_TRUE(trust) << trust.error().message;
-    for (const CameraTrust& t : *trust)
-      EXPECT_NE(t.verdict, CameraVerdict::kDropped) << t.camera << ", " << reason_of(t);
-  }
-}
-
 TEST_F(CameraTrustTest, VerdictsAreTheSameForAnyThreadCount) {
   Capture capture = capture_;
   turn(capture.cameras[std::size_t(input_[4])], 2);

@@ -49,9 +49,19 @@ TEST_F(TinyCaptureTest, PhotographsThatWereDroppedAreNotMeasured) {
       << ran.err;
   const auto of_file = parsed(slf("eval cans.slf cans --json").out)["input"],
              of_all = parsed(slf("eval cans.slf cans --split all --json").out)["input"];
+  EXPECT_NE(slf("eval cans.slf cans").err.find("were input"), std::string::npos);
   EXPECT_EQ(of_file["cameras"], 49);
   EXPECT_EQ(of_all["cameras"], 50);
   EXPECT_NE(of_file["image"]["psnr"], of_all["image"]["psnr"]);
+}
+
+TEST_F(TinyCaptureTest, ASplitThatIsAskedForDoesNotMakeInputOfPhotographs) {
+  ASSERT_EQ(slf("encode tiny -o a.slf -q 32 --grid-bits 6 --surface given --effort 1").code, 0);
+  for (const char* split : {"all", "evaluation"}) {
+    const Ran ran = slf("eval a.slf tiny --split " + std::string(split));
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(ran.err.find("were input"), std::string::npos) << ran.err;
+  }
 }
 
 TEST_F(TinyCaptureTest, EvalMeasuresAFrameByItsOwnBytes) {

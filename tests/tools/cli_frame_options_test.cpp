@@ -63,7 +63,7 @@ std::vector<Example> geometry_and_coding() {
           {"densify", "on", kRefused, kRefused},
           {"surface", "mended", kRefused, kRefused},
           {"surface", "splats", kRefused},
-          {"splats", "600", kRefused, kAct, "--surface splats"},
+          {"splats", "300", kRefused, kAct, "--surface splats"},
           {"surface-seconds", "3", kRefused, kRefused},
           {"surface-memory", "99", kRefused, kRefused},
           {"photograph-pixels", "0.0002", kRefused},
