@@ -24,13 +24,12 @@ export async function fetchCapture(folder) {
     const response = await fetch(new URL(name, base)).catch(() => null);
     if (!response?.ok) continue;
     const image = async (path) => {
-      const found = await fetch(inside(base, path)).catch(() => null);
-      if (!found?.ok) throw new ViewerError('network', 'The photograph cannot be fetched.', path);
-      return pictureOf(await found.blob(), path);
+      const found = await fetch(inside(base, path));
+      return found.ok ? found.blob() : null;
     };
     return camerasOf(await response.json().catch(() => null), read, name, image);
   }
-  throw new ViewerError('network', 'The capture has neither cameras.json nor transforms.json.', String(folder));
+  throw new ViewerError('network', 'No camera can be used.', `${folder}: no cameras.json, no transforms.json`);
 }
 
 /** The same of files that were dropped together; null where none of them lists cameras. */
@@ -40,20 +39,13 @@ export async function droppedCapture(files) {
     if (!list) continue;
     const image = async (path) => {
       const last = path.split('/').pop();
-      const file = files.find((each) => each.name === last || each.name.replace(/\.[^.]+$/, '') === last);
-      if (!file) throw new ViewerError('network', 'The photograph was not among the files.', path);
-      return pictureOf(file, path);
+      return files.find((each) => each.name === last || each.name.replace(/\.[^.]+$/, '') === last);
     };
     const root = await new Response(list).json().catch(() => null);
     return camerasOf(root, read, name, image);
   }
   return null;
 }
-
-const pictureOf = (blob, path) =>
-  createImageBitmap(blob).catch(() => {
-    throw new ViewerError('damaged', 'The photograph cannot be read.', path);
-  });
 
 const READERS = { 'cameras.json': readCameras, 'transforms.json': readTransforms };
 
@@ -65,15 +57,21 @@ function camerasOf(root, read, name, image) {
       [c.cx, c.cy, ...c.rotation, ...c.eye].every(Number.isFinite) &&
       c.rotation.length === 9,
   );
-  if (!usable.length) throw new ViewerError('damaged', 'The capture has no camera that can be used.', name);
-  for (const camera of usable) camera.photograph = () => image(camera.name);
+  if (!usable.length) throw new ViewerError('damaged', 'No camera can be used.', name);
+  for (const camera of usable)
+    camera.photograph = () =>
+      image(camera.name)
+        .then(createImageBitmap)
+        .catch(() => {
+          throw new ViewerError('network', 'The file cannot be fetched.', camera.name);
+        });
   return usable;
 }
 
 /** An image may not lead out of its capture. */
 function inside(base, path) {
   const address = new URL(path, base);
-  if (!address.href.startsWith(base.href)) throw new ViewerError('damaged', 'A photograph leads out of the capture.', path);
+  if (!address.href.startsWith(base.href)) throw new RangeError(path);
   return address;
 }
 

@@ -154,7 +154,7 @@ const own = (table, name) => (Object.hasOwn(table, name) ? table[name] : undefin
 export function plainError(error) {
   if (error instanceof ViewerError) return { kind: error.kind, words: error.words, detail: error.detail };
   if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError)
-    return { kind: 'memory', words: 'There is not enough memory to decode this file.' };
+    return { kind: 'memory', words: 'There is not enough memory to decode it.' };
   if (error?.code === 'INVALID_ARGUMENT' && OF_DECODER.includes(error.element))
     return { kind: 'network', words: WORDS.NETWORK, detail: error.message };
   const words = own(WORDS, error?.code) ?? 'Some of it says what cannot be.';

@@ -233,7 +233,7 @@ export class FieldLoader {
       event.preventDefault?.();
       this.stopped = event.message
         ? new ViewerError('memory', 'The decoder stopped.', event.message)
-        : new ViewerError('network', 'The script of the decoder cannot be fetched.'); // that has no message
+        : new ViewerError('network', 'The decoder, a part of this page, did not arrive.'); // that has no message
       for (const { reject } of this.waiting.values()) reject(this.stopped);
       this.waiting.clear();
     };
@@ -244,7 +244,7 @@ export class FieldLoader {
     try {
       return await this.start();
     } catch (error) {
-      throw new ViewerError('network', 'The script of the decoder cannot be fetched.', error?.message);
+      throw new ViewerError('network', 'The decoder, a part of this page, did not arrive.', error?.message);
     }
   }
 

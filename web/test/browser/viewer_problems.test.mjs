@@ -99,7 +99,7 @@ test('a file that takes far too much memory is refused, and can be shown coarser
 
 for (const [name, pattern, words] of [
   ['the decoder', '**/slf.wasm', /^The decoder, a part of this page, did not arrive/],
-  ['its worker', '**/decode_worker*', /^The script of the decoder cannot be fetched/],
+  ['its worker', '**/decode_worker*', /^The decoder, a part of this page, did not arrive/],
 ])
   test(`${name} that cannot be fetched is no fault of the file`, { skip }, async () => {
     const page = await newPage(here.chrome);
